@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Job: what a virtual test's test.toml declares: its deck, the variables the optimiser may set, its outputs and responses.
+// Method: read once per test folder with positions kept; the deck is searched for `variable NAME index DEFAULT` lines, and
+//   every variable declared in test.toml must be there, so that the two files can't drift apart.
+// Units: `unit` is the SI unit of the number that the deck gets. Failure: errors go to the collector with file:line:column.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/user_error.h"
+
+namespace bondlab {
+
+struct DeckVariable {
+  std::string name;
+  std::string unit = "1";
+  std::optional<double> minimum;         // exclusive
+  std::optional<double> maximum;         // inclusive
+  std::vector<std::string> choices;      // not empty: a word of this list instead of a number
+  std::string default_text;              // from the deck
+  std::string description;
+  Place place;
+};
+
+struct ResponseDefinition {
+  std::string name;
+  std::string unit;
+  std::string function;  // "uniaxial.peak_stress": file and function in response/
+  Place place;
+};
+
+struct TestDefinition {
+  std::string name;
+  std::string description;
+  std::filesystem::path folder;  // absolute
+  std::filesystem::path deck;    // absolute
+  std::map<std::string, DeckVariable> variables;
+  std::map<std::string, ResponseDefinition> responses;
+  std::string curve = "curve.tsv", events = "broken_bonds.tsv", particles = "particles_end.txt";  // names in the run directory
+  int dimensions_from_deck = 0;  // default of the deck's variable `dim`; 0 when it has none
+};
+
+// Reads FOLDER/test.toml and the deck it names. Errors are collected; what could be read is returned.
+TestDefinition read_test_definition(const std::filesystem::path &folder, ErrorCollector &errors);
+
+// A number for a deck variable, judged against minimum and maximum; "" when allowed, else what is wrong with it.
+std::string why_not_allowed(const DeckVariable &variable, double si_value);
+
+}  // namespace bondlab
