@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // Job: turn what a user writes ("41.5 GPa", "0.1 m/s", "3 %") into a number in SI units of an expected dimension, and back.
-// Method: a unit is a factor, an offset (degC only) and exponents of kg, m, s, K and angle; products, quotients and powers
+// Method: a unit is a factor (as a quotient of whole numbers where it can be), an offset (degC only) and exponents of kg, m, s, K and angle; products, quotients and powers
 //   of the known names are accepted ("kg/m3", "MPa m0.5", "N/m"). Angle has an exponent of its own so that "30 deg" given
-//   for a friction coefficient is an error. One '/' divides everything after it up to the next '*' or blank.
+//   for a friction coefficient is an error. A '/' divides by the one term after it, and no product may follow a '/'
+//   ("J/kg/K", not "J/kg K", which people read in two ways).
 // Units: numbers inside BondLab are SI always; the unit text is only for reading and showing.
 // Failure: UnitError (a UserError without a place; the reader that knows the place adds it) with the value given and the
 //   units allowed. Limits: no electrical or chemical units; degC only alone, never inside a product.
@@ -30,8 +31,7 @@ struct Dimension {
 };
 
 struct Unit {
-  double factor = 1;  // value in SI = value * factor + offset
-  double offset = 0;
+  double multiply = 1, divide = 1, offset = 0;  // value in SI = value * multiply / divide + offset
   Dimension dimension;
 };
 
@@ -40,6 +40,9 @@ Unit parse_unit(const std::string &text);
 // "41.5 GPa" -> 41.5e9 when `expected_unit` is any unit of pressure. A number without unit is accepted only where
 // `expected_unit` is dimensionless.
 double parse_quantity(const std::string &text, const std::string &expected_unit);
+
+// The same for a difference (a standard deviation, a step): "2 degC" is 2 K.
+double parse_difference(const std::string &text, const std::string &expected_unit);
 
 // Number and unit apart, without judging the dimension: "3 %" -> {3, "%"}.
 struct Quantity {
