@@ -34,13 +34,13 @@ struct BrokenBond {
   double sigma = 0, tau = 0, sigma_c = 0, tau_c = 0;
 };
 
-struct Particle {
+struct EndParticle {
   int id = 0, type = 0;
   double radius = 0, x = 0, y = 0, z = 0;
 };
 
 Curve read_curve(const std::filesystem::path &file);
 std::vector<BrokenBond> read_broken_bonds(const std::filesystem::path &file);
-std::vector<Particle> read_particles(const std::filesystem::path &file);  // last frame of a dump, sorted by id
+std::vector<EndParticle> read_particles(const std::filesystem::path &file);  // last frame of a dump, sorted by id
 
 }  // namespace bondlab
