@@ -136,22 +136,41 @@ foreach(style ${styles_Pair})
 endforeach()
 foreach(style ${styles_Fix})
   string(REGEX MATCH "^(.*)=(.*)$" unused "${style}")
-  string(APPEND body "  (*lmp->modify->fix_map)[\"${CMAKE_MATCH_1}\"] = [](LAMMPS *l, int n, char **a) -> Fix * { return new ${CMAKE_MATCH_2}(l, n, a); };\n")
+  string(APPEND body "  (*engine_map(lmp->modify, FixMap()))[\"${CMAKE_MATCH_1}\"] = [](LAMMPS *l, int n, char **a) -> Fix * { return new ${CMAKE_MATCH_2}(l, n, a); };\n")
 endforeach()
 foreach(style ${styles_Compute})
   string(REGEX MATCH "^(.*)=(.*)$" unused "${style}")
-  string(APPEND body "  (*lmp->modify->compute_map)[\"${CMAKE_MATCH_1}\"] = [](LAMMPS *l, int i, int n, char **a) -> Compute * { return new ${CMAKE_MATCH_2}(l, i, n, a); };\n")
+  string(APPEND body "  (*engine_map(lmp->modify, ComputeMap()))[\"${CMAKE_MATCH_1}\"] = [](LAMMPS *l, int i, int n, char **a) -> Compute * { return new ${CMAKE_MATCH_2}(l, i, n, a); };\n")
 endforeach()
 foreach(style ${styles_Command})
   string(REGEX MATCH "^(.*)=(.*)$" unused "${style}")
-  string(APPEND body "  (*lmp->input->command_map)[\"${CMAKE_MATCH_1}\"] = [](LAMMPS *l, int n, char **a) { ${CMAKE_MATCH_2}(l).command(n, a); };\n")
+  string(APPEND body "  (*engine_map(lmp->input, CommandMap()))[\"${CMAKE_MATCH_1}\"] = [](LAMMPS *l, int n, char **a) { ${CMAKE_MATCH_2}(l).command(n, a); };\n")
+endforeach()
+
+# The engine's maps of fixes, computes and commands are not public, and it has no call to enter a
+# style at run time. Access rules do not apply to the arguments of an explicit instantiation
+# (C++17, [temp.explicit] 12), so a pointer to the member is had without touching the engine.
+string(CONCAT access "template <class Tag, class Owner, class Map, Map *Owner::*member> struct EngineMap {\n"
+  "  friend Map *engine_map(Owner *owner, Tag) { return owner->*member; }\n};\n")
+foreach(entry "Fix;Modify;fix_map;Fix *;, int, char **" "Compute;Modify;compute_map;Compute *;, int, int, char **"
+    "Command;Input;command_map;void ;, int, char **")
+  list(GET entry 0 kind)
+  list(GET entry 1 owner)
+  list(GET entry 2 member)
+  list(GET entry 3 result)
+  list(GET entry 4 arguments)
+  string(APPEND access "struct ${kind}Map {};\nusing ${kind}Creators = std::map<std::string, ${result}(*)(LAMMPS *${arguments})>;\n"
+    "${kind}Creators *engine_map(${owner} *, ${kind}Map);\n"
+    "template struct EngineMap<${kind}Map, ${owner}, ${kind}Creators, &${owner}::${member}>;\n")
 endforeach()
 
 string(CONCAT text "${license}"
+  "#include <map>\n#include <string>\n"
   "#include \"atom_vec.h\"\n#include \"bond.h\"\n#include \"compute.h\"\n#include \"fix.h\"\n"
   "#include \"force.h\"\n#include \"input.h\"\n#include \"lammps.h\"\n#include \"modify.h\"\n"
   "#include \"pair.h\"\n#include \"pointers.h\"\n"
   "${includes}\nnamespace LAMMPS_NS {\n"
+  "${access}"
   "void register_styles(LAMMPS *);\n"
   "${factories}"
   "void register_styles([[maybe_unused]] LAMMPS *lmp) {\n${body}}\n}  // namespace LAMMPS_NS\n")

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Job: the plain arrays every bond and contact law reads and writes, one block of pairs at a time.
+//
+// A block is a fixed number of lanes. It is always processed whole: the unused lanes of the last
+// block are padded with a harmless pair. So every pair goes through the same vector instructions
+// whatever its place in the list is, and gives the same bits on 1, 2 or 4 ranks.
+//
+// Units: SI (m, rad, N, N m). Vectors in world axes. "i" is the particle with the smaller tag,
+// "j" the other one. Forces and moments in the outputs act ON i; the force on j is the opposite,
+// its moment follows from the lever arms (see PairLoads).
+//
+// Limits: a law never looks at particles, neighbour lists or an engine. It gets what it needs here.
+#ifndef BONDLAB_LAWS_BOND_BATCH_H
+#define BONDLAB_LAWS_BOND_BATCH_H
+
+namespace bondlab::laws {
+
+// Lanes in a block: 8 AVX-512 vectors of doubles; temporaries of a block stay in the first cache.
+inline constexpr int kBlock = 64;
+
+// Relative motion of one block of pairs over one time step, 3D.
+struct Kinematics3 {
+  alignas(64) double dx[kBlock], dy[kBlock], dz[kBlock];  // x_j - x_i now, m
+  alignas(64) double ux[kBlock], uy[kBlock], uz[kBlock];  // its change over the step, m
+  // rotation of the bond's two ends over the step, weighted by radius:
+  // (R_i w_i + R_j w_j) dt / (R_i + R_j), rad
+  alignas(64) double sx[kBlock], sy[kBlock], sz[kBlock];
+  alignas(64) double qx[kBlock], qy[kBlock], qz[kBlock];  // (w_j - w_i) dt, rad
+  alignas(64) double ri[kBlock], rj[kBlock];              // radii, m
+};
+
+// Loads of one block of pairs, 3D. The contact point is a fraction R_i/(R_i+R_j) of the way from
+// i to j, so that the arms always sum to the current distance. With e the unit vector i -> j:
+//   force on i = f, on j = -f
+//   torque on i = m + (a_i e) x f,  torque on j = -m + (a_j e) x f,  a_i + a_j = |x_j - x_i|
+struct PairLoads3 {
+  alignas(64) double fx[kBlock], fy[kBlock], fz[kBlock];     // N
+  alignas(64) double tix[kBlock], tiy[kBlock], tiz[kBlock];  // N m, on i
+  alignas(64) double tjx[kBlock], tjy[kBlock], tjz[kBlock];  // N m, on j
+};
+
+// The same in the plane. Rotations and moments are about +z.
+struct Kinematics2 {
+  alignas(64) double dx[kBlock], dy[kBlock];  // x_j - x_i now, m
+  alignas(64) double ux[kBlock], uy[kBlock];  // its change over the step, m
+  alignas(64) double s[kBlock];               // (R_i w_i + R_j w_j) dt / (R_i + R_j), rad
+  alignas(64) double q[kBlock];               // (w_j - w_i) dt, rad
+  alignas(64) double ri[kBlock], rj[kBlock];  // radii, m
+};
+
+struct PairLoads2 {
+  alignas(64) double fx[kBlock], fy[kBlock];  // N
+  alignas(64) double ti[kBlock], tj[kBlock];  // N m
+};
+
+// What a law says of a bond after a step.
+enum class BondFate : unsigned char { intact = 0, broken_in_tension = 1, broken_in_shear = 2 };
+
+}  // namespace bondlab::laws
+
+#endif

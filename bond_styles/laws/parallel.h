@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Job: the parallel bond: a disc of elastic cement between two grains that carries normal and shear
+// force, bending and twisting moment, and breaks when the stress at its rim reaches a strength.
+//
+// Law: Potyondy & Cundall 2004, Int. J. Rock Mech. Min. Sci. 41, 1329-1364, sec. 2.2, eqs. 11-16,
+// in total form for the normal force (an incremental one drifts with the time step) and in
+// incremental, rotation-carried form for the others:
+//     F_n  = kbar_n A (d - d_0)                 tension positive
+//     F_s += kbar_s A du_s,   M_t += kbar_s J dtheta_t,   M_b += kbar_n I dtheta_b     (acting on i)
+//     kbar_n = E_b / (R_i + R_j)  Pa/m,  kbar_s = kbar_n / (k_n/k_s)
+//     R_b = lambda min(R_i, R_j)
+//     3D: A = pi R_b^2,  I = pi R_b^4/4,  J = pi R_b^4/2
+//     2D (disc of thickness t): A = 2 R_b t,  I = 2 R_b^3 t/3,  no twist
+//     sigma = F_n/A + beta |M_b| R_b/I     breaks when sigma >= sigma_c   (looked at first)
+//     tau   = |F_s|/A + beta |M_t| R_b/J   breaks when tau >= tau_c - sigma_n tan(phi_b)
+// sigma_n = F_n/A alone, without the moment part (PFC's later form with cohesion tau_c and friction
+// angle phi_b; phi_b = 0 is the law of 2004). beta is the moment contribution factor.
+// Names: "bend" is about an axis across the bond, "twist" about the bond. Papers differ.
+//
+// Compression never breaks the bond in tension: F_n has its sign in the criterion.
+// On a break the bond's force and moment vanish at once and its state is set to zero; the grain
+// contact in parallel is computed by grain_contact.h and is not touched.
+//
+// Units: m, N, N m, Pa. Failure: none; NaN in, NaN out (the caller watches). Limits: strength is
+// looked at once a step, so the overshoot is rate x dt x stiffness; no softening, no bond damping.
+#ifndef BONDLAB_LAWS_PARALLEL_H
+#define BONDLAB_LAWS_PARALLEL_H
+
+#include <cmath>
+
+#include "grain_contact.h"
+
+namespace bondlab::laws {
+
+// Constants of a bond type.
+struct ParallelParameters {
+  double modulus = 0.0;       // E_b, Pa
+  double ratio = 1.0;         // k_n/k_s of the bond, 1
+  double lambda = 1.0;        // radius multiplier, 1
+  double beta = 1.0;          // moment contribution factor, 1
+  double tan_phi = 0.0;       // tangent of the bond's friction angle, 1
+  double thickness = 1.0;     // t of 2D discs, m
+};
+
+// Cross-section of a bond. Areas m^2, second moments m^4.
+struct BondSection {
+  double area, bend, twist;
+};
+inline constexpr double kPi = 3.14159265358979323846;
+inline BondSection round_section(double radius) {
+  const double r2 = radius * radius, area = kPi * r2;
+  return {area, 0.25 * area * r2, 0.5 * area * r2};
+}
+inline BondSection strip_section(double radius, double thickness) {
+  return {2.0 * radius * thickness, 2.0 / 3.0 * radius * radius * radius * thickness, 0.0};
+}
+
+// Arrays of one block of bonds. Shapes: [kBlock] each. Constants of the type are broadcast by the
+// caller, so that a block may mix types.
+struct ParallelArrays3 {
+  // constants
+  const double* rest;      // d_0, distance at bonding, m
+  const double* radius;    // R_b, m
+  const double* stiffness; // kbar_n, Pa/m
+  const double* ratio;     // k_n/k_s of the bond
+  const double* beta;
+  const double* tan_phi;
+  const double* sigma_c;   // Pa
+  const double* tau_c;     // Pa
+  // state, read; written when advancing
+  double *alive;           // 1 intact, 0 broken
+  double *fsx, *fsy, *fsz; // shear force on i, N
+  double *mbx, *mby, *mbz; // bending moment on i, N m
+  double *mt;              // twisting moment on i, N m
+  // report of the step, written
+  double *sigma, *tau;     // rim stresses before any break, Pa
+  unsigned char* fate;     // BondFate
+};
+
+struct ParallelArrays2 {
+  const double *rest, *radius, *stiffness, *ratio, *beta, *tan_phi, *sigma_c, *tau_c;
+  double thickness;        // m
+  double *alive;
+  double *fs;              // shear force on i along t = z x e, N
+  double *mb;              // bending moment on i about z, N m
+  double *sigma, *tau;
+  unsigned char* fate;
+};
+
+// One block in 3D: bond and grain contact together; `out` gets their sum.
+// advance = false computes the loads of the stored state and changes nothing (set-up of a run).
+template <bool advance>
+void parallel_block_3d(const Kinematics3& k, const ParallelArrays3& a, const ContactParameters& c,
+                       double* __restrict csx, double* __restrict csy, double* __restrict csz,
+                       PairLoads3& out) {
+#pragma GCC ivdep
+  for (int b = 0; b < kBlock; ++b) {
+    const PairStep3 p({k.dx[b], k.dy[b], k.dz[b]}, {k.ux[b], k.uy[b], k.uz[b]},
+                      {k.sx[b], k.sy[b], k.sz[b]}, {k.qx[b], k.qy[b], k.qz[b]});
+    const ContactForce3 grain = contact_force(p, Vec3{csx[b], csy[b], csz[b]}, c.reference[b],
+                                              c.kn[b], c.ks[b], c.mu[b]);
+    const BondSection section = round_section(a.radius[b]);
+    const double kn = a.stiffness[b], ks = kn / a.ratio[b], alive = a.alive[b];
+    const double fn = kn * section.area * (p.distance - a.rest[b]);
+    const Vec3 fs = p.carried(Vec3{a.fsx[b], a.fsy[b], a.fsz[b]}) + (ks * section.area) * p.shear;
+    const Vec3 mb = p.carried(Vec3{a.mbx[b], a.mby[b], a.mbz[b]}) + (kn * section.bend) * p.bend;
+    const double mt = a.mt[b] + ks * section.twist * p.twist;
+
+    const double inverse_area = 1.0 / section.area;
+    const double rim = a.beta[b] * a.radius[b];
+    const double sigma_n = fn * inverse_area;
+    const double sigma = sigma_n + rim * std::sqrt(dot(mb, mb)) / section.bend;
+    const double tau =
+        std::sqrt(dot(fs, fs)) * inverse_area + rim * std::fabs(mt) / section.twist;
+    const bool tension = sigma >= a.sigma_c[b];
+    const bool shear = tau >= a.tau_c[b] - sigma_n * a.tan_phi[b];
+    const double hold = advance ? ((tension | shear) ? 0.0 : alive) : alive;
+    a.sigma[b] = alive * sigma;
+    a.tau[b] = alive * tau;
+    a.fate[b] = static_cast<unsigned char>(
+        !advance || alive == 0.0 ? 0 : (tension ? 1 : (shear ? 2 : 0)));
+
+    const Vec3 across = grain.shear + hold * fs;
+    const Vec3 force = across + (hold * fn - grain.normal) * p.e;
+    const Vec3 moment = hold * (mb + mt * p.e);
+    const double arm = p.distance / (k.ri[b] + k.rj[b]);
+    const double ai = arm * k.ri[b], aj = arm * k.rj[b];
+    const Vec3 lever = cross(p.e, across);
+    out.fx[b] = force.x, out.fy[b] = force.y, out.fz[b] = force.z;
+    out.tix[b] = moment.x + ai * lever.x, out.tiy[b] = moment.y + ai * lever.y;
+    out.tiz[b] = moment.z + ai * lever.z;
+    out.tjx[b] = aj * lever.x - moment.x, out.tjy[b] = aj * lever.y - moment.y;
+    out.tjz[b] = aj * lever.z - moment.z;
+    if (advance) {
+      a.alive[b] = hold;
+      a.fsx[b] = hold * fs.x, a.fsy[b] = hold * fs.y, a.fsz[b] = hold * fs.z;
+      a.mbx[b] = hold * mb.x, a.mby[b] = hold * mb.y, a.mbz[b] = hold * mb.z;
+      a.mt[b] = hold * mt;
+      csx[b] = grain.shear.x, csy[b] = grain.shear.y, csz[b] = grain.shear.z;
+    }
+  }
+}
+
+// The same in the plane.
+template <bool advance>
+void parallel_block_2d(const Kinematics2& k, const ParallelArrays2& a, const ContactParameters& c,
+                       double* __restrict cs, PairLoads2& out) {
+#pragma GCC ivdep
+  for (int b = 0; b < kBlock; ++b) {
+    const PairStep2 p(k.dx[b], k.dy[b], k.ux[b], k.uy[b], k.s[b]);
+    const ContactForce2 grain =
+        contact_force(p, cs[b], c.reference[b], c.kn[b], c.ks[b], c.mu[b]);
+    const BondSection section = strip_section(a.radius[b], a.thickness);
+    const double kn = a.stiffness[b], ks = kn / a.ratio[b], alive = a.alive[b];
+    const double fn = kn * section.area * (p.distance - a.rest[b]);
+    const double fs = a.fs[b] + ks * section.area * p.shear;
+    const double mb = a.mb[b] + kn * section.bend * k.q[b];
+
+    const double inverse_area = 1.0 / section.area;
+    const double sigma_n = fn * inverse_area;
+    const double sigma = sigma_n + a.beta[b] * a.radius[b] * std::fabs(mb) / section.bend;
+    const double tau = std::fabs(fs) * inverse_area;
+    const bool tension = sigma >= a.sigma_c[b];
+    const bool shear = tau >= a.tau_c[b] - sigma_n * a.tan_phi[b];
+    const double hold = advance ? ((tension | shear) ? 0.0 : alive) : alive;
+    a.sigma[b] = alive * sigma;
+    a.tau[b] = alive * tau;
+    a.fate[b] = static_cast<unsigned char>(
+        !advance || alive == 0.0 ? 0 : (tension ? 1 : (shear ? 2 : 0)));
+
+    const double along = hold * fn - grain.normal, across = grain.shear + hold * fs;
+    const double arm = p.distance / (k.ri[b] + k.rj[b]);
+    out.fx[b] = along * p.ex - across * p.ey;
+    out.fy[b] = along * p.ey + across * p.ex;
+    out.ti[b] = hold * mb + arm * k.ri[b] * across;
+    out.tj[b] = arm * k.rj[b] * across - hold * mb;
+    if (advance) {
+      a.alive[b] = hold;
+      a.fs[b] = hold * fs;
+      a.mb[b] = hold * mb;
+      cs[b] = grain.shear;
+    }
+  }
+}
+
+// Elastic energy of an intact bond, J. Forces N, moments N m, stiffness Pa/m.
+inline double parallel_energy(double fn, double fs, double mb, double mt, double kn, double ks,
+                              const BondSection& s) {
+  double energy = 0.5 * fn * fn / (kn * s.area) + 0.5 * mb * mb / (kn * s.bend);
+  if (ks > 0.0) {
+    energy += 0.5 * fs * fs / (ks * s.area);
+    if (s.twist > 0.0) energy += 0.5 * mt * mt / (ks * s.twist);
+  }
+  return energy;
+}
+
+}  // namespace bondlab::laws
+
+#endif

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Job: see fix_nve_bonded.h.
+#include "fix_nve_bonded.h"
+
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "atom.h"
+#include "bond_styles/liggghts/atom_vec_bonded_sphere.h"
+#include "domain.h"
+#include "error.h"
+#include "update.h"
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+FixNVEBonded::FixNVEBonded(LAMMPS *lmp, int narg, char **arg)
+    : Fix(lmp, narg, arg), style_(AtomVecBondedSphere::of(lmp, "fix nve/bonded")),
+      orientation_(false), first_step_(false), half_dt_(0.0), dt_(0.0), inertia_factor_(0.4) {
+  time_integrate = 1;
+  for (int k = 3; k < narg; k += 2) {
+    const bool known = !strcmp(arg[k], "orientation") && k + 1 < narg &&
+                       (!strcmp(arg[k + 1], "yes") || !strcmp(arg[k + 1], "no"));
+    if (!known) {
+      const std::string text = std::string("fix nve/bonded: '") + arg[k] +
+                               "' is not understood, allowed is `orientation yes|no`";
+      error->all(FLERR, text.c_str());
+    }
+    orientation_ = !strcmp(arg[k + 1], "yes");
+  }
+}
+
+int FixNVEBonded::setmask() { return INITIAL_INTEGRATE | FINAL_INTEGRATE; }
+
+void FixNVEBonded::init() {
+  inertia_factor_ = domain->dimension == 2 ? 0.5 : 0.4;  // disc, sphere
+  first_step_ = true;
+  reset_dt();
+}
+
+void FixNVEBonded::reset_dt() {
+  dt_ = update->dt;
+  half_dt_ = 0.5 * update->dt;
+}
+
+// v += dt/2 F/m, w += dt/2 T/I for the particles of the group
+void FixNVEBonded::half_kick() {
+  const int n = atom->nlocal, *mask = atom->mask;
+  double *v = atom->v[0], *w = atom->omega[0];
+  const double *f = atom->f[0], *t = atom->torque[0], *m = atom->rmass, *r = atom->radius;
+  const double dt = half_dt_, factor = inertia_factor_;
+  for (int i = 0; i < n; i++) {
+    if (!(mask[i] & groupbit)) continue;
+    const double linear = dt / m[i], angular = linear / (factor * r[i] * r[i]);
+    for (int d = 0; d < 3; d++) {
+      v[3 * i + d] += linear * f[3 * i + d];
+      w[3 * i + d] += angular * t[3 * i + d];
+    }
+  }
+}
+
+void FixNVEBonded::initial_integrate(int) {
+  if (atom->nlocal == 0) {
+    first_step_ = false;
+    return;
+  }
+  if (first_step_) {
+    // the run's set-up computed forces from full-step velocities: take those the last run ended with
+    style_->restore_forces(update->ntimestep - 1);
+    first_step_ = false;
+  }
+  half_kick();
+  const int n = atom->nlocal, *mask = atom->mask;
+  double *x = atom->x[0];
+  const double *v = atom->v[0], dt = dt_;
+  for (int i = 0; i < n; i++) {
+    if (!(mask[i] & groupbit)) continue;
+    for (int d = 0; d < 3; d++) x[3 * i + d] += dt * v[3 * i + d];
+  }
+  if (orientation_) turn();
+}
+
+void FixNVEBonded::final_integrate() {
+  if (atom->nlocal) half_kick();
+}
+
+void FixNVEBonded::post_run() { style_->save_forces(); }
+
+// q <- q * rotation by w dt (exact for constant w, unit length kept)
+void FixNVEBonded::turn() {
+  const int n = atom->nlocal, *mask = atom->mask;
+  double **q = style_->quat, **w = atom->omega;
+  for (int i = 0; i < n; i++) {
+    if (!(mask[i] & groupbit)) continue;
+    const double rate = std::sqrt(w[i][0] * w[i][0] + w[i][1] * w[i][1] + w[i][2] * w[i][2]);
+    const double half = 0.5 * dt_ * rate;
+    const double s = rate > 0.0 ? std::sin(half) / rate : 0.0, c = std::cos(half);
+    const double ax = s * w[i][0], ay = s * w[i][1], az = s * w[i][2];
+    const double p[4] = {q[i][0], q[i][1], q[i][2], q[i][3]};
+    // rotation in world axes multiplies from the left
+    q[i][0] = c * p[0] - ax * p[1] - ay * p[2] - az * p[3];
+    q[i][1] = c * p[1] + ax * p[0] + ay * p[3] - az * p[2];
+    q[i][2] = c * p[2] + ay * p[0] + az * p[1] - ax * p[3];
+    q[i][3] = c * p[3] + az * p[0] + ax * p[2] - ay * p[1];
+    const double norm = 1.0 / std::sqrt(q[i][0] * q[i][0] + q[i][1] * q[i][1] + q[i][2] * q[i][2] + q[i][3] * q[i][3]);
+    for (int d = 0; d < 4; d++) q[i][d] *= norm;
+  }
+}
