@@ -52,7 +52,7 @@ struct DeckValue {
 
 struct TestEntry {
   std::string name;      // unique in the study; ForwardRequest::test
-  std::string test;      // as written: folder in inputs/, or a path
+  std::string test;      // as written: folder in inputs/, or a path from the study file
   std::string specimen;  // name of a SpecimenEntry
   int ranks = 1;
   double wall_limit = 0;                        // s
@@ -117,6 +117,7 @@ struct Study {
   std::vector<FitEntry> fits;
   FitOptions options;
   std::vector<Assumption> assumptions;
+  std::vector<std::string> notes;
   std::optional<DataFolder> data;
 
   // Look-ups by name; a name that isn't there is a UserError that lists the names that are.

@@ -19,10 +19,11 @@ namespace bondlab {
 struct DeckVariable {
   std::string name;
   std::string unit = "1";
-  std::optional<double> minimum;         // exclusive
+  std::optional<double> minimum;         // exclusive: `minimum = 0` means > 0
+  std::optional<double> at_least;        // inclusive: `at_least = 0` means >= 0
   std::optional<double> maximum;         // inclusive
   std::vector<std::string> choices;      // not empty: a word of this list instead of a number
-  std::string default_text;              // from the deck
+  std::string default_text;              // from the deck's `variable NAME index DEFAULT`
   std::string description;
   Place place;
 };
@@ -39,14 +40,18 @@ struct TestDefinition {
   std::string description;
   std::filesystem::path folder;  // absolute
   std::filesystem::path deck;    // absolute
-  std::map<std::string, DeckVariable> variables;
+  std::map<std::string, DeckVariable> variables;     // what the optimiser may set
+  std::map<std::string, std::string> deck_defaults;  // every `variable NAME index DEFAULT` of the deck
   std::map<std::string, ResponseDefinition> responses;
   std::string curve = "curve.tsv", events = "broken_bonds.tsv", particles = "particles_end.txt";  // names in the run directory
-  int dimensions_from_deck = 0;  // default of the deck's variable `dim`; 0 when it has none
+  std::vector<std::string> shapes;  // specimens it can hold; empty: any
 };
 
 // Reads FOLDER/test.toml and the deck it names. Errors are collected; what could be read is returned.
 TestDefinition read_test_definition(const std::filesystem::path &folder, ErrorCollector &errors);
+
+// Deck variables that the launcher fills in from the specimen; neither test.toml nor a study may set them.
+const std::vector<std::string> &variables_from_specimen();  // specimen, width, height, diameter, thickness
 
 // A number for a deck variable, judged against minimum and maximum; "" when allowed, else what is wrong with it.
 std::string why_not_allowed(const DeckVariable &variable, double si_value);
