@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Job: `atom_style bonded/sphere`: ghosts, migration between ranks and restarts.
 // See atom_vec_bonded_sphere.h.
-#include <cstring>
-
 #include "atom.h"
 #include "atom_vec_bonded_sphere.h"
 #include "domain.h"
+#include "error.h"
 #include "fix.h"
 #include "memory.h"
 #include "modify.h"
@@ -14,7 +13,7 @@
 using namespace LAMMPS_NS;
 
 namespace {
-constexpr int kCommon = 24;  // doubles of a particle apart from image, reference and tables
+constexpr int kCommon = 23;  // doubles of a particle apart from forces and tables
 }
 
 // ---- ghosts -------------------------------------------------------------------------------------
@@ -215,10 +214,11 @@ int AtomVecBondedSphere::unpack_exchange(double *buf) {
 // Every particle saves its own rows, so a pair stands in the file twice; the second copy is dropped
 // when the table is put in order.
 
+// Exact: the engine writes this many doubles.
 int AtomVecBondedSphere::size_restart() {
   int n = 0;
   for (int i = 0; i < atom->nlocal; i++) {
-    n += 1 + kCommon + 1 + 7 + bonds.packed_size(slot[i]) + contacts.packed_size(slot[i]);
+    n += 1 + kCommon + 6 + bonds.packed_size(slot[i]) + contacts.packed_size(slot[i]);
     if (atom->nextra_restart)
       for (int k = 0; k < atom->nextra_restart; k++)
         n += modify->fix[atom->extra_restart[k]]->size_restart(i);
@@ -228,11 +228,7 @@ int AtomVecBondedSphere::size_restart() {
 
 int AtomVecBondedSphere::pack_restart(int i, double *buf) {
   int m = 1;
-  double common[kCommon];
-  const int n = pack_common(i, common);
-  // the engine reads the position from values 1 to 3
-  memcpy(buf + m, common, n * sizeof(double));
-  m += n;
+  m += pack_common(i, buf + m);  // begins with the position, which the engine reads there
   // after a run the particles may have migrated since forces were saved; during one they are here
   const bool kept = saved_step == update->ntimestep;
   for (int d = 0; d < 3; d++) {
@@ -269,17 +265,22 @@ int AtomVecBondedSphere::unpack_restart(double *buf) {
   return m;
 }
 
+// The time step goes along: computed from the bonded network (timestep_bonded), it would come out
+// otherwise after bonds have broken.
 void AtomVecBondedSphere::write_restart_settings(FILE *fp) {
-  fwrite(&thickness, sizeof(double), 1, fp);
-  fwrite(&density_override, sizeof(double), 1, fp);
+  const double settings[3] = {thickness, density_override, update->dt};
+  fwrite(settings, sizeof settings, 1, fp);
 }
 
 void AtomVecBondedSphere::read_restart_settings(FILE *fp) {
-  int me;
+  int me, good = 1;
   MPI_Comm_rank(world, &me);
-  double both[2];
-  if (me == 0 && fread(both, sizeof(double), 2, fp) != 2) both[0] = both[1] = 0.0;
-  MPI_Bcast(both, 2, MPI_DOUBLE, 0, world);
-  thickness = both[0];
-  density_override = both[1];
+  double settings[3] = {0.0, 0.0, 0.0};
+  if (me == 0) good = fread(settings, sizeof settings, 1, fp) == 1;
+  MPI_Bcast(&good, 1, MPI_INT, 0, world);
+  if (!good) error->all(FLERR, "restart file ends within the settings of atom_style bonded/sphere");
+  MPI_Bcast(settings, 3, MPI_DOUBLE, 0, world);
+  thickness = settings[0];
+  density_override = settings[1];
+  update->dt = settings[2];
 }

@@ -16,8 +16,10 @@ PairStyle(grain,PairGrain)
 #ifndef BONDLAB_PAIR_GRAIN_H
 #define BONDLAB_PAIR_GRAIN_H
 
+#include <cmath>
 #include <vector>
 
+#include "atom.h"
 #include "atom_vec_bonded_sphere.h"
 #include "laws/grain_contact.h"
 #include "pair.h"
