@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Job: the platen's motion and forces. See fix_platen.h; arguments and restart are in
+// fix_platen_io.cpp.
+#include "fix_platen.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "exact_sum_mpi.h"
+#include "fix_arguments.h"
+#include "force.h"
+#include "memory.h"
+#include "platen_motion.h"
+#include "update.h"
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using bondlab::PlatenForce;
+using bondlab::PlatenHistory;
+using bondlab::PlatenTouch;
+using bondlab::Vec3;
+
+namespace {
+Vec3 vec(const double *a) { return {a[0], a[1], a[2]}; }
+}  // namespace
+
+int FixPlaten::setmask() { return INITIAL_INTEGRATE | POST_FORCE; }
+
+void FixPlaten::init() {
+  if (strncmp(update->integrate_style, "verlet", 6) != 0)
+    stop_with_error(lmp, this, std::string("needs `run_style verlet`, this run has '") +
+                                   update->integrate_style + "'");
+}
+
+void FixPlaten::setup(int) {
+  if (!placed_) place();
+  apply(false);
+  reduce();
+}
+
+// The surface where it is at present.
+void FixPlaten::stand() {
+  now_ = surface_;
+  if (touch_along_)
+    now_.point = now_.point + touch_shift_ * along_;
+  else
+    bondlab::close_gap(now_, touch_shift_);
+  now_.point = now_.point + vec(moved_);
+}
+
+// First use: touch the specimen, start the clock.
+void FixPlaten::place() {
+  placed_ = true;
+  time_ = clock_base_ = 0.0;
+  time_step_ = clock_step_ = update->ntimestep;
+  clock_dt_ = update->dt;
+  if (touch_) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < atom->nlocal; i++) {
+      if (!(atom->mask[i] & groupbit)) continue;
+      const Vec3 x = vec(atom->x[i]);
+      const double r = atom->radius[i];
+      least = std::fmin(least, touch_along_ ? bondlab::travel_to_touch(surface_, along_, x, r)
+                                            : bondlab::touch(surface_, x, r).gap);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, world);
+    if (!std::isfinite(least))
+      stop_with_error(lmp, this,
+                      "keyword touch: the platen meets no particle of its group in its direction");
+    touch_shift_ = least;
+  }
+  stand();
+  if (now_.surface != bondlab::Surface::plane && !(now_.radius > 0.0))
+    stop_with_error(lmp, this, "keyword touch: the radius would have to be " +
+                                   std::to_string(now_.radius) + " m to touch the particles");
+  check_nothing_is_behind();
+}
+
+// A centre behind the surface is a platen put on the wrong side: the force would be absurd.
+void FixPlaten::check_nothing_is_behind() {
+  int worst = 0;  // tag
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & groupbit) {
+      const PlatenTouch t = bondlab::touch(now_, vec(atom->x[i]), atom->radius[i]);
+      if (t.gap < -atom->radius[i]) worst = atom->tag[i];
+    }
+  MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_INT, MPI_MAX, world);
+  if (worst)
+    stop_with_error(lmp, this, "the centre of particle " + std::to_string(worst) +
+                                   " is behind the platen's surface; check its place, its normal or "
+                                   "inside|outside, or use `touch`");
+}
+
+double FixPlaten::time_at(bigint step) const {
+  return clock_base_ + static_cast<double>(step - clock_step_) * clock_dt_;
+}
+
+double FixPlaten::speed_now(int c) const {
+  return c == servo_ ? servo_speed_ : speed_[c] * bondlab::ramp_speed(time_, ramp_);
+}
+
+void FixPlaten::initial_integrate(int) {
+  if (update->dt != clock_dt_) {  // the clock goes on from here at the new pace
+    clock_base_ = time_;
+    clock_step_ = time_step_;
+    clock_dt_ = update->dt;
+  }
+  time_step_ = update->ntimestep;
+  time_ = time_at(time_step_);
+  const double far = bondlab::ramp_distance(time_, ramp_);
+  double step[3];
+  for (int c = 0; c < 3; c++) {
+    double to = speed_[c] * far;
+    if (c == servo_) {
+      servo_speed_ = bondlab::servo_speed(force_[c], servo_force_, servo_gain_, servo_limit_);
+      to = moved_[c] + servo_speed_ * update->dt;
+    }
+    step[c] = to - moved_[c];
+    moved_[c] = to;
+  }
+  step_motion_ = vec(step);
+  stand();
+}
+
+void FixPlaten::post_force(int) {
+  apply(true);
+  if (servo_ >= 0) reduce();
+}
+
+void FixPlaten::apply(bool advance) {
+  sums_.clear();
+  reduced_ = false;
+  const double dt = update->dt;
+  double **x = atom->x, **v = atom->v, **w = atom->omega, **f = atom->f, **t = atom->torque;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const Vec3 centre = vec(x[i]);
+    const double radius = atom->radius[i];
+    const PlatenTouch at = bondlab::touch(now_, centre, radius);
+    double *h = history_[i];
+    if (at.gap >= 0.0) {
+      if (advance) std::fill(h, h + 6, 0.0);
+      continue;
+    }
+    const double kn = stiffness_.normal(radius);
+    const Vec3 arm = at.point - centre;
+    const Vec3 motion = dt * (vec(v[i]) + bondlab::cross(vec(w[i]), arm)) - step_motion_;
+    PlatenHistory history{vec(h), vec(h + 3)};
+    const PlatenForce on = bondlab::platen_force({kn, kn / ratio_, friction_}, -at.gap, at.normal,
+                                                 motion, advance, history);
+    if (advance) {
+      const double state[6] = {history.shear.x,  history.shear.y,  history.shear.z,
+                               history.normal.x, history.normal.y, history.normal.z};
+      std::copy(state, state + 6, h);
+    }
+    const Vec3 turn = bondlab::cross(arm, on.force);
+    f[i][0] += on.force.x, f[i][1] += on.force.y, f[i][2] += on.force.z;
+    t[i][0] += turn.x, t[i][1] += turn.y, t[i][2] += turn.z;
+
+    const Vec3 moment = bondlab::cross(at.point - now_.point, on.force);
+    const double parts[SUMS] = {-on.force.x, -on.force.y, -on.force.z, -moment.x,
+                                -moment.y,   -moment.z,   1.0,         on.energy};
+    for (int k = 0; k < SUMS; k++) sums_.add(k, parts[k]);
+  }
+}
+
+void FixPlaten::reduce() {
+  if (reduced_) return;
+  reduced_ = true;
+  bondlab::ExactSums<SUMS> all = sums_;
+  bondlab::sum_over_ranks(all, world);
+  for (int k = 0; k < SUMS; k++) total_[k] = all.value(k);
+  for (int c = 0; c < 3; c++) force_[c] = total_[FORCE + c];
+}
+
+double FixPlaten::compute_vector(int n) {
+  if (n >= 6 && n < 9) return moved_[n - 6];
+  if (n >= 9 && n < 12) return speed_now(n - 9);
+  if (n == 13) return touch_shift_;
+  reduce();
+  if (n < 6) return total_[n];
+  return total_[n == 12 ? TOUCHING : ENERGY];
+}
+
+// `reset_timestep` between runs: the clock keeps its time.
+void FixPlaten::reset_timestep(bigint to, bigint from) {
+  clock_step_ += to - from;
+  time_step_ += to - from;
+}

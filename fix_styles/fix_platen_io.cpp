@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Job: the platen's arguments, per-particle arrays and restart. See fix_platen.h.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "atom.h"
+#include "atom_vec_bonded_sphere.h"
+#include "comm.h"
+#include "domain.h"
+#include "fix_arguments.h"
+#include "fix_platen.h"
+#include "memory.h"
+#include "update.h"
+
+using namespace LAMMPS_NS;
+using bondlab::Surface;
+using bondlab::Vec3;
+
+namespace {
+
+constexpr int kHistory = 6;
+
+Vec3 read_vector(FixArguments &a, const char *what) {
+  Vec3 v;
+  v.x = a.number(what);
+  v.y = a.number(what);
+  v.z = a.number(what);
+  return v;
+}
+
+Vec3 unit(FixArguments &a, Vec3 v, const char *what) {
+  const double size = bondlab::length(v);
+  if (!(size > 0.0)) a.fail(std::string(what) + " is 0 0 0, it must have a direction");
+  return (1.0 / size) * v;
+}
+
+}  // namespace
+
+FixPlaten::FixPlaten(LAMMPS *lmp, int narg, char **arg)
+    : Fix(lmp, narg, arg), ratio_(1.0), friction_(0.0), speed_{0, 0, 0}, ramp_(0.0), servo_(-1),
+      servo_force_(0.0), servo_gain_(0.0), servo_limit_(0.0), touch_(false), touch_along_(false),
+      along_{0, 0, 0}, placed_(false), touch_shift_(0.0), time_(0.0), time_step_(0),
+      clock_base_(0.0), clock_step_(0), clock_dt_(0.0), moved_{0, 0, 0}, servo_speed_(0.0),
+      force_{0, 0, 0}, history_(NULL), total_{}, reduced_(true), step_motion_{0, 0, 0} {
+  vector_flag = 1;
+  size_vector = 15;
+  global_freq = 1;
+  extvector = 0;
+  restart_global = 1;
+  restart_peratom = 1;
+  create_attribute = 1;
+
+  AtomVecBondedSphere *style = AtomVecBondedSphere::of(lmp, "fix platen");
+  if (domain->dimension == 2) stiffness_.thickness = style->thickness;
+  read_arguments(narg, arg);
+  stand();
+
+  grow_arrays(atom->nmax);
+  atom->add_callback(0);
+  atom->add_callback(1);
+  for (int i = 0; i < atom->nlocal; i++) set_arrays(i);
+}
+
+FixPlaten::~FixPlaten() {
+  atom->delete_callback(id, 0);
+  atom->delete_callback(id, 1);
+  memory->destroy(history_);
+}
+
+void FixPlaten::read_arguments(int narg, char **arg) {
+  FixArguments a(lmp, this, narg, arg);
+  switch (a.choice("the surface", "plane|cylinder|sphere")) {
+    case 0:
+      surface_.surface = Surface::plane;
+      surface_.point = read_vector(a, "a coordinate of the plane's point (m)");
+      surface_.direction = unit(a, read_vector(a, "a component of the plane's normal"), "the normal");
+      break;
+    case 1: {
+      surface_.surface = Surface::cylinder;
+      if (a.next_is("vector")) {
+        surface_.direction = unit(a, read_vector(a, "a component of the axis"), "the axis");
+      } else {
+        const int axis = a.choice("the axis of the cylinder", "x|y|z|vector");
+        surface_.direction = {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0};
+      }
+      surface_.point = read_vector(a, "a coordinate of the axis (m)");
+      break;
+    }
+    case 2:
+      surface_.surface = Surface::sphere;
+      surface_.point = read_vector(a, "a coordinate of the centre (m)");
+  }
+  if (surface_.surface != Surface::plane) {
+    surface_.radius = a.number("the radius (m)", FixArguments::POSITIVE);
+    surface_.inside = a.choice("the side the particles are on", "outside|inside") == 1;
+  }
+
+  read_keywords(a);
+  check_arguments(a);
+}
+
+void FixPlaten::read_keywords(FixArguments &a) {
+  bool stiffness = false, ratio = false, velocity = false, at_rest = false;
+  while (a.more()) {
+    const bool modulus = a.next_is("modulus");
+    if (modulus || a.next_is("stiffness_per_radius")) {
+      if (stiffness) a.fail("the stiffness is given twice: use modulus or stiffness_per_radius once");
+      stiffness = true;
+      stiffness_.kind = modulus ? bondlab::PlatenStiffness::Kind::modulus
+                                : bondlab::PlatenStiffness::Kind::per_radius;
+      stiffness_.value = a.number(modulus ? "modulus (Pa)" : "stiffness_per_radius (N/m2)",
+                                  FixArguments::POSITIVE);
+    } else if (a.next_is("ratio")) {
+      ratio_ = a.number("ratio (kn/ks)", FixArguments::POSITIVE);
+      ratio = true;
+    } else if (a.next_is("friction")) {
+      friction_ = a.number("friction", FixArguments::NOT_NEGATIVE);
+    } else if (a.next_is("touch")) {
+      touch_ = true;
+      touch_along_ = a.next_is("along");
+      if (touch_along_)
+        along_ = unit(a, read_vector(a, "a component of `touch along`"), "`touch along`");
+    } else if (a.next_is("velocity")) {
+      velocity = true;
+      for (double &s : speed_) s = a.number("a component of the velocity (m/s)");
+      if (a.next_is("ramp")) ramp_ = a.number("ramp (s)", FixArguments::NOT_NEGATIVE);
+    } else if (a.next_is("servo")) {
+      servo_ = a.choice("the force of the servo", "fx|fy|fz");
+      servo_force_ = a.number("the force of the servo (N)");
+      if (!a.next_is("gain")) a.fail("servo needs `gain G` (m/s per N) after the force");
+      servo_gain_ = a.number("gain (m/s per N)", FixArguments::POSITIVE);
+      if (!a.next_is("vmax")) a.fail("servo needs `vmax V` (m/s) after the gain");
+      servo_limit_ = a.number("vmax (m/s)", FixArguments::POSITIVE);
+    } else if (a.next_is("at_rest")) {
+      at_rest = true;
+    } else {
+      a.unknown_keyword("touch, modulus, stiffness_per_radius, ratio, friction, velocity, servo, at_rest");
+    }
+  }
+  if (!stiffness) a.fail("needs a stiffness: `modulus E` (Pa) or `stiffness_per_radius K` (N/m2)");
+  if (friction_ > 0.0 && !ratio) a.fail("friction needs `ratio kn/ks` as well");
+  if (at_rest && (velocity || servo_ >= 0)) a.fail("at_rest can't be used with velocity or servo");
+  if (servo_ >= 0 && speed_[servo_] != 0.0)
+    a.fail("velocity and servo are both given for the same direction");
+}
+
+void FixPlaten::check_arguments(const FixArguments &a) const {
+  if (domain->dimension != 2) return;
+  const Vec3 d = surface_.direction;
+  if (surface_.surface == Surface::sphere) a.fail("a sphere can't be used in 2D, use `cylinder z`");
+  if (surface_.surface == Surface::cylinder && (d.x != 0.0 || d.y != 0.0))
+    a.fail("the axis of a cylinder must be z in 2D");
+  if (surface_.surface == Surface::plane && d.z != 0.0)
+    a.fail("the normal of a plane must have no z component in 2D");
+  if (along_.z != 0.0) a.fail("`touch along` must have no z component in 2D");
+  if (speed_[2] != 0.0 || servo_ == 2) a.fail("the platen can't move along z in 2D");
+}
+
+// ---- per-particle arrays ----
+
+void FixPlaten::grow_arrays(int nmax) { memory->grow(history_, nmax, kHistory, "platen:history"); }
+
+void FixPlaten::copy_arrays(int i, int j, int) {
+  std::copy(history_[i], history_[i] + kHistory, history_[j]);
+}
+
+void FixPlaten::set_arrays(int i) { std::fill(history_[i], history_[i] + kHistory, 0.0); }
+
+int FixPlaten::pack_exchange(int i, double *buf) {
+  std::copy(history_[i], history_[i] + kHistory, buf);
+  return kHistory;
+}
+
+int FixPlaten::unpack_exchange(int i, double *buf) {
+  std::copy(buf, buf + kHistory, history_[i]);
+  return kHistory;
+}
+
+int FixPlaten::size_restart(int) { return kHistory + 1; }
+int FixPlaten::maxsize_restart() { return kHistory + 1; }
+
+int FixPlaten::pack_restart(int i, double *buf) {
+  buf[0] = kHistory + 1;
+  std::copy(history_[i], history_[i] + kHistory, buf + 1);
+  return kHistory + 1;
+}
+
+void FixPlaten::unpack_restart(int i, int which) {
+  const double *extra = atom->extra[i];
+  int at = 0;
+  for (int k = 0; k < which; k++) at += static_cast<int>(extra[at]);
+  std::copy(extra + at + 1, extra + at + 1 + kHistory, history_[i]);
+}
+
+double FixPlaten::memory_usage() { return static_cast<double>(atom->nmax) * kHistory * sizeof(double); }
+
+// ---- state of the platen ----
+
+namespace {
+constexpr int kState = 15;
+}
+
+void FixPlaten::write_restart(FILE *fp) {
+  const double state[kState] = {placed_ ? 1.0 : 0.0,
+                                touch_shift_,
+                                time_,
+                                static_cast<double>(time_step_),
+                                clock_base_,
+                                static_cast<double>(clock_step_),
+                                clock_dt_,
+                                moved_[0],
+                                moved_[1],
+                                moved_[2],
+                                servo_speed_,
+                                force_[0],
+                                force_[1],
+                                force_[2],
+                                static_cast<double>(surface_.surface)};
+  if (comm->me != 0) return;
+  const int size = sizeof state;
+  fwrite(&size, sizeof size, 1, fp);
+  fwrite(state, sizeof state, 1, fp);
+}
+
+void FixPlaten::restart(char *buf) {
+  double state[kState];
+  std::copy(buf, buf + sizeof state, reinterpret_cast<char *>(state));
+  if (state[14] != static_cast<double>(surface_.surface))
+    stop_with_error(lmp, this, "the restart file holds a platen of this name with another surface");
+  placed_ = state[0] != 0.0;
+  touch_shift_ = state[1];
+  time_ = state[2];
+  time_step_ = static_cast<bigint>(state[3]);
+  clock_base_ = state[4];
+  clock_step_ = static_cast<bigint>(state[5]);
+  clock_dt_ = state[6];
+  std::copy(state + 7, state + 10, moved_);
+  servo_speed_ = state[10];
+  std::copy(state + 11, state + 14, force_);
+  stand();
+}
