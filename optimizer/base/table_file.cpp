@@ -72,8 +72,8 @@ TableFile::TableFile(const std::filesystem::path &file, char separator)
     if (!row_text.empty() && row_text.back() == '\r') row_text.remove_suffix(1);
     rows_.push_back({line, split(row_text, separator)});
     if (rows_.back().cells.size() != names_.size() && (last_line_is_whole_ || begin < text.size()))
-      throw UserError(place(line), std::to_string(rows_.back().cells.size()) + " cells in this row, " +
-                                       std::to_string(names_.size()) + " in the '# names:' line (separator: " +
+      throw UserError(place(line), "cells in this row: " + std::to_string(rows_.back().cells.size()) + ", names in the '# names:' line: " +
+                                       std::to_string(names_.size()) + " (separator: " +
                                        (separator == '\t' ? "tab" : "comma") + ")");
   }
   // A row cut off in mid-line is what a killed writer leaves: it is no data.

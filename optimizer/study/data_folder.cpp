@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-MeasuredCurve read_measured_curve(const fs::path &folder, const std::string &name) {
+MeasuredCurve read_measured_curve(const fs::path &folder, const std::string &name, const Measurement &series) {
   const fs::path file = folder / name;
   const std::string extension = file.extension().string();
   if (extension != ".csv" && extension != ".tsv")
@@ -25,6 +25,9 @@ MeasuredCurve read_measured_curve(const fs::path &folder, const std::string &nam
   if (!units_line) throw UserError(table.place(table.find("names")->line), "a '# units:' line is needed below the names, one unit a column (1 for none)");
   if (table.rows().size() < 2) throw UserError(table.place(0), "a curve needs at least two rows");
   if (!table.last_line_is_whole()) throw UserError(table.place(0), "the last line has no line break: the file may be cut off");
+
+  for (const std::string *column : {&series.x, &series.y})
+    if (!column->empty()) table.column_index(*column);  // throws when absent
 
   MeasuredCurve curve;
   curve.file = name;
@@ -83,10 +86,7 @@ void read_series(TomlTable &table, DataFolder &data) {
   bool all_read = !files.empty();
   for (const std::string &file : files) {
     try {
-      MeasuredCurve curve = read_measured_curve(data.folder, file);
-      for (const std::string *column : {&series.x, &series.y})
-        if (!column->empty() && std::find(curve.names.begin(), curve.names.end(), *column) == curve.names.end())
-          throw UserError({(data.folder / file).string(), 0, 0}, "there is no column '" + *column + "' (series '" + series.name + "'); columns: " + join(curve.names));
+      MeasuredCurve curve = read_measured_curve(data.folder, file, series);
       for (const MeasuredCurve &other : series.replicates)
         if (other.file == file) throw UserError(table.place("files"), "the file '" + file + "' stands twice in series '" + series.name + "'");
       series.replicates.push_back(std::move(curve));
@@ -99,7 +99,7 @@ void read_series(TomlTable &table, DataFolder &data) {
     try {
       series.envelope = make_envelope(series.replicates, series.x, series.y);
     } catch (const UserError &error) {
-      errors.add(table.place("files"), "series '" + series.name + "': " + error.text());
+      errors.add(table.place("files"), "series '" + series.name + "': " + error.what());
     }
   }
   data.measurements.push_back(std::move(series));

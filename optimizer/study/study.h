@@ -35,6 +35,7 @@ struct SpecimenEntry {
   double thickness = 1;  // m; of 2D specimens (rectangle, disc): mass pi R^2 t rho, forces in newtons
   double r_min = 0;      // m; smallest particle radius
   double r_ratio = 1.66; // largest over smallest radius
+  std::string sizes = "uniform";  // a size distribution of the generator
   double density = 2600; // kg/m3; of the particles
   std::uint64_t seed = 1;
   Place place;

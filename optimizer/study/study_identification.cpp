@@ -23,20 +23,10 @@ Place entry_place(TomlTable &table, const toml::table &entry, const std::string 
   return list && index < list->size() ? table.place_of(*list->get(index)) : table.place(key);
 }
 
-std::string unit_of_parameter(TomlTable &table) {
-  const std::string unit = table.text("unit", true);
-  if (unit.empty()) return "1";
-  try {
-    parse_unit(unit);
-  } catch (const UnitError &error) {
-    table.error("unit", error.text());
-    return "1";
-  }
-  return unit;
-}
-
-// Each deck variable a parameter sets: known to a test, free, of the parameter's dimension, its limits outside the bounds.
-void check_sets(TomlTable &table, const toml::table &entry, const Study &study, const Parameter &parameter) {
+// Each deck variable a parameter sets: known to a test, free, of the parameter's dimension, its limits outside the bounds
+// (judged only when the bounds are good in themselves).
+void check_sets(TomlTable &table, const toml::table &entry, const Study &study, const Parameter &parameter, bool good_bounds) {
+  bool bound_complained = false;
   for (std::size_t i = 0; i < parameter.sets.size(); ++i) {
     const std::string &name = parameter.sets[i];
     const Place place = entry_place(table, entry, "sets", i);
@@ -54,6 +44,7 @@ void check_sets(TomlTable &table, const toml::table &entry, const Study &study, 
       found = true;
       if (complained) continue;  // once is enough: the other tests share the variable
       const DeckVariable &variable = declared->second;
+      if (variable.unit.empty()) continue;  // reported in test.toml
       if (test.variables.count(name)) {
         errors.add(place, "the deck variable '" + name + "' is fixed in the test '" + test.name + "' (line " + std::to_string(test.place.line) + ") and can't be a parameter too");
         complained = true;
@@ -63,12 +54,12 @@ void check_sets(TomlTable &table, const toml::table &entry, const Study &study, 
       } else if (!same_dimension(variable.unit, parameter.unit)) {
         errors.add(table.place("unit"), "the unit '" + parameter.unit + "' isn't one of the deck variable '" + name + "'; allowed here: " + join(allowed_units(variable.unit)));
         complained = true;
-      } else {
+      } else if (good_bounds && !bound_complained) {
         for (const auto &[key, bound] : {std::make_pair("lower", parameter.lower), std::make_pair("upper", parameter.upper)}) {
           const std::string why = table.has(key) ? why_not_allowed(variable, bound) : "";
           if (why.empty()) continue;
           table.error(key, "'" + std::string(key) + "' can't be " + format_quantity(bound, parameter.unit, 6) + " for the deck variable '" + name + "'; " + why);
-          complained = true;
+          complained = bound_complained = true;
         }
       }
     }
@@ -80,8 +71,9 @@ void check_sets(TomlTable &table, const toml::table &entry, const Study &study, 
   }
 }
 
-void check_bounds(TomlTable &table, const Parameter &parameter, bool both_given) {
-  if (!both_given) return;
+// False when something is wrong with them.
+bool check_bounds(TomlTable &table, const Parameter &parameter) {
+  const std::size_t before = table.errors().errors().size();
   const auto shown_value = [&](double value) { return format_quantity(value, parameter.unit, 6); };
   if (parameter.lower >= parameter.upper)
     table.error("lower", "the bounds are reversed or equal: lower = " + shown_value(parameter.lower) + ", upper = " + shown_value(parameter.upper));
@@ -90,6 +82,7 @@ void check_bounds(TomlTable &table, const Parameter &parameter, bool both_given)
       table.error(key, "'" + std::string(key) + "' can't be " + shown_value(bound) + " with scale = \"log\"; it must be above 0");
   if (parameter.start && (*parameter.start <= parameter.lower || *parameter.start >= parameter.upper) && parameter.lower < parameter.upper)
     table.error("start", "'start' can't be " + shown_value(*parameter.start) + "; it must lie between " + shown_value(parameter.lower) + " and " + shown_value(parameter.upper));
+  return table.errors().errors().size() == before;
 }
 
 }  // namespace
@@ -100,18 +93,19 @@ void read_parameters(TomlTable &top, Study &study) {
     Parameter parameter;
     parameter.place = table.place();
     parameter.name = read_name(table, study.parameters);
-    parameter.unit = unit_of_parameter(table);
-    const std::optional<double> lower = table.quantity("lower", parameter.unit, true), upper = table.quantity("upper", parameter.unit, true);
+    const std::optional<std::string> unit = read_unit(table, true);
+    parameter.unit = unit.value_or("1");
+    const std::optional<double> lower = table.quantity_if(unit, "lower", true), upper = table.quantity_if(unit, "upper", true);
     parameter.lower = lower.value_or(0);
     parameter.upper = upper.value_or(0);
-    parameter.start = table.quantity("start", parameter.unit);
+    parameter.start = table.quantity_if(unit, "start");
     parameter.scale = table.choice("scale", {"linear", "log"}) == "log" ? Scale::logarithmic : Scale::linear;
     parameter.source = table.text("source");
     parameter.sets = table.words("sets", table.has("sets"));
     if (!table.has("sets")) parameter.sets = {parameter.name};
     table.finish();
-    check_bounds(table, parameter, lower && upper);
-    if (lower && upper) check_sets(table, *entry, study, parameter);
+    const bool good_bounds = lower && upper && check_bounds(table, parameter);
+    if (unit) check_sets(table, *entry, study, parameter, good_bounds);
     study.parameters.push_back(parameter);
   }
 }
@@ -122,7 +116,8 @@ namespace {
 double read_sd(TomlTable &table, const toml::table &entry, const std::string &unit, double value) {
   const toml::node *node = entry.get("sd");
   if (!node) {
-    table.text("sd", true);  // reports that it is missing
+    table.text("sd");
+    table.errors().add(table.place(), "'sd' is missing in [[targets]]; write sd = \"3 %\" of the value, or a quantity");
     return 1;
   }
   double sd = 0;
@@ -173,7 +168,7 @@ void read_targets(TomlTable &top, Study &study) {
     target.response = table.text("response", true);
     std::string si_unit;
     const TestEntry *test = find_entry(study.tests, target.test);
-    if (!test && !target.test.empty()) table.error("test", unknown_name("test", target.test, names_of(study.tests)));
+    if (!test && !target.test.empty()) table.error("test", unknown_name("there is no test", target.test, names_of(study.tests)));
     if (test && !test->definition.responses.empty() && !target.response.empty()) {
       const auto response = test->definition.responses.find(target.response);
       if (response != test->definition.responses.end()) {
@@ -181,7 +176,7 @@ void read_targets(TomlTable &top, Study &study) {
       } else {
         std::vector<std::string> known;
         for (const auto &[name, definition] : test->definition.responses) known.push_back(name);
-        table.error("response", unknown_name("response of the test '" + test->test + "'", target.response, known));
+        table.error("response", unknown_name("the test '" + test->test + "' has no response", target.response, known));
       }
     }
     if (si_unit.empty()) si_unit = unit_as_written(entry->get("value"), "1");  // unknown response: judge what can be judged
@@ -208,7 +203,7 @@ void read_fits(TomlTable &top, Study &study) {
       const std::vector<std::string> &list = key == std::string("targets") ? fit.targets : fit.predicted;
       for (std::size_t i = 0; i < list.size(); ++i) {
         const Place place = entry_place(table, *entry, key, i);
-        if (!find_entry(study.targets, list[i])) table.errors().add(place, unknown_name("target", list[i], names_of(study.targets)));
+        if (!find_entry(study.targets, list[i])) table.errors().add(place, unknown_name("there is no target", list[i], names_of(study.targets)));
         if (std::count(list.begin(), list.begin() + static_cast<long>(i), list[i])) table.errors().add(place, "'" + list[i] + "' stands twice in '" + key + "'");
         if (&list == &fit.predicted && std::count(fit.targets.begin(), fit.targets.end(), list[i]))
           table.errors().add(place, "'" + list[i] + "' is fitted in the same fit and can't be predicted by it");

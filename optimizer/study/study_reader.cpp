@@ -6,6 +6,7 @@
 #include "base/table_file.h"
 #include "base/units.h"
 #include "study/input_folders.h"
+#include "study/specimen_request.h"
 #include "study/study.h"
 #include "study/study_sections.h"
 
@@ -13,9 +14,9 @@ namespace bondlab {
 
 namespace fs = std::filesystem;
 
-std::string unknown_name(const std::string &kind, const std::string &name, const std::vector<std::string> &known) {
+std::string unknown_name(const std::string &complaint, const std::string &name, const std::vector<std::string> &known) {
   const std::string near = nearest_word(name, known);
-  return "there is no " + kind + " '" + name + "'" + (near.empty() ? "" : " (did you mean '" + near + "'?)") + "; known: " +
+  return complaint + " '" + name + "'" + (near.empty() ? "" : " (did you mean '" + near + "'?)") + "; known: " +
          (known.empty() ? "none" : join(known));
 }
 
@@ -35,7 +36,7 @@ void read_study_table(TomlTable &top, Study &study) {
 double positive_length(TomlTable &table, const std::string &key, bool required, double fallback = 0) {
   const std::optional<double> value = table.quantity(key, "m", required);
   if (!value) return fallback;
-  if (*value <= 0) table.error(key, "'" + key + "' can't be " + format_quantity(*value, "m", 6) + "; it must be above 0 m");
+  if (*value <= 0) table.error(key, "'" + key + "' can't be " + table.given(key) + "; it must be above 0 m");
   return *value;
 }
 
@@ -57,16 +58,15 @@ void read_dimensions(TomlTable &table, SpecimenEntry &specimen) {
   }
 }
 
-// Particles that can't fit are an error of the file; how well they pack is judged by the generator.
-void check_particles(TomlTable &table, const SpecimenEntry &specimen) {
-  if (specimen.r_min <= 0 || specimen.r_ratio < 1) return;
-  double smallest = 0;
-  for (const double length : {specimen.width, specimen.height, specimen.diameter})
-    if (length > 0 && (smallest == 0 || length < smallest)) smallest = length;
-  const double largest_radius = specimen.r_min * specimen.r_ratio;
-  if (smallest > 0 && 2 * largest_radius > smallest / 5)
-    table.error("r_min", "the largest particle (diameter " + format_quantity(2 * largest_radius, "mm") + ") is more than a fifth of the specimen's smallest side (" +
-                             format_quantity(smallest, "mm") + "); make r_min at most " + format_quantity(smallest / 10 / specimen.r_ratio, "mm"));
+// What only the generator knows: the size distributions there are, how many particles it takes.
+void check_with_generator(TomlTable &table, const SpecimenEntry &specimen) {
+  try {
+    check_request(specimen_request(specimen, 0));
+  } catch (const UserErrors &several) {
+    for (const UserError &error : several.errors()) table.errors().add(specimen.place, "specimen '" + specimen.name + "': " + error.text());
+  } catch (const UserError &error) {
+    table.errors().add(specimen.place, "specimen '" + specimen.name + "': " + error.text());
+  }
 }
 
 }  // namespace
@@ -74,6 +74,7 @@ void check_particles(TomlTable &table, const SpecimenEntry &specimen) {
 void read_specimens(TomlTable &top, Study &study) {
   for (const toml::table *entry : top.tables("specimens", true)) {
     TomlTable table(*entry, "[[specimens]]", top.file(), top.errors());
+    const std::size_t errors_before = table.errors().errors().size();
     SpecimenEntry specimen;
     specimen.place = table.place();
     specimen.name = read_name(table, study.specimens);
@@ -86,9 +87,10 @@ void read_specimens(TomlTable &top, Study &study) {
       table.error("r_ratio", "'r_ratio' (largest over smallest radius) can't be " + canonical_number(specimen.r_ratio) + "; it must be at least 1");
     specimen.density = table.quantity("density", "kg/m3").value_or(specimen.density);
     if (specimen.density <= 0) table.error("density", "'density' must be above 0 kg/m3");
+    if (table.has("sizes")) specimen.sizes = table.text("sizes", true);
     specimen.seed = static_cast<std::uint64_t>(table.whole("seed", 1, 1, 2147483647));
     table.finish();
-    check_particles(table, specimen);
+    if (table.errors().errors().size() == errors_before) check_with_generator(table, specimen);
     study.specimens.push_back(specimen);
   }
 }
@@ -108,10 +110,11 @@ void read_test_variables(TomlTable &table, const toml::table &entries, TestEntry
     }
     if (found == test.definition.variables.end()) {
       if (!test.definition.variables.empty())
-        variables.errors().add(variables.key_place(name), unknown_name("variable of the test '" + test.test + "'", name, known));
+        variables.errors().add(variables.key_place(name), unknown_name("the test '" + test.test + "' has no variable", name, known));
       continue;
     }
     const DeckVariable &variable = found->second;
+    if (variable.unit.empty()) continue;  // reported where it stands
     DeckValue value;
     if (!variable.choices.empty()) {
       value.word = variables.choice(name, variable.choices);
@@ -160,7 +163,7 @@ void read_tests(TomlTable &top, Study &study) {
       else if (test.test.find('/') != std::string::npos)
         table.error("test", "there is no folder '" + (study.file.parent_path() / test.test).string() + "'");
       else
-        table.error("test", unknown_name("virtual test", test.test, known_tests()));
+        table.error("test", unknown_name("there is no virtual test", test.test, known_tests()));
     }
     test.ranks = static_cast<int>(table.whole("ranks", 1, 1, 4096));
     test.wall_limit = table.quantity("wall_limit", "s").value_or(600);
@@ -171,7 +174,7 @@ void read_tests(TomlTable &top, Study &study) {
     if (specimen)
       check_specimen_fits(table, test, *specimen);
     else if (!test.specimen.empty())
-      table.error("specimen", unknown_name("specimen", test.specimen, names_of(study.specimens)));
+      table.error("specimen", unknown_name("there is no specimen", test.specimen, names_of(study.specimens)));
     table.finish();
     study.tests.push_back(test);
   }
@@ -211,7 +214,7 @@ void read_data(TomlTable &top, Study &study) {
   }
   for (const Measurement &series : study.data->measurements)
     if (!series.test.empty() && !find_entry(study.tests, series.test))
-      top.errors().add(series.place, "series '" + series.name + "': " + unknown_name("test", series.test, names_of(study.tests)) + " (in " + study.file.string() + ")");
+      top.errors().add(series.place, "series '" + series.name + "': " + unknown_name("there is no test", series.test, names_of(study.tests)) + " (in " + study.file.string() + ")");
 }
 
 }  // namespace
@@ -222,7 +225,7 @@ Study read_study(const fs::path &file) {
   study.source_text = read_text_file(file);
   const toml::table root = parse_toml(study.source_text, file.string());
   ErrorCollector errors;
-  TomlTable top(root, "a study file", file.string(), errors);
+  TomlTable top(root, "the study file", file.string(), errors);
   if (top.whole("schema", 1, 0, 1000000, true) != 1)
     top.error("schema", "'schema' can't be " + shown(*root.get("schema")) + "; this version of bondlab reads schema 1");
   read_study_table(top, study);

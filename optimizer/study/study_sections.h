@@ -45,7 +45,7 @@ std::vector<std::string> names_of(const std::vector<Entry> &entries) {
   return names;
 }
 
-// "there is no test 'usc' (did you mean 'ucs'?); known: ucs, brazilian"
-std::string unknown_name(const std::string &kind, const std::string &name, const std::vector<std::string> &known);
+// "there is no test 'usc' (did you mean 'ucs'?); known: ucs, brazilian"; `complaint` is the part before the name.
+std::string unknown_name(const std::string &complaint, const std::string &name, const std::vector<std::string> &known);
 
 }  // namespace bondlab

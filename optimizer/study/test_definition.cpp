@@ -28,19 +28,6 @@ std::map<std::string, std::string> index_variables(const std::string &deck) {
   return defaults;
 }
 
-// A unit text that must be one; "1" and an error otherwise.
-std::string unit_text(TomlTable &table, bool required) {
-  const std::string unit = table.text("unit", required);
-  if (unit.empty()) return "1";
-  try {
-    parse_unit(unit);
-    return unit;
-  } catch (const UnitError &error) {
-    table.error("unit", error.text());
-    return "1";
-  }
-}
-
 DeckVariable read_variable(const std::string &name, TomlTable table) {
   DeckVariable variable;
   variable.name = name;
@@ -48,10 +35,11 @@ DeckVariable read_variable(const std::string &name, TomlTable table) {
   variable.description = table.text("description");
   variable.choices = table.words("choices");
   if (variable.choices.empty()) {
-    variable.unit = unit_text(table, true);
-    variable.minimum = table.quantity("minimum", variable.unit);
-    variable.at_least = table.quantity("at_least", variable.unit);
-    variable.maximum = table.quantity("maximum", variable.unit);
+    const std::optional<std::string> unit = read_unit(table, true);
+    variable.unit = unit.value_or("");
+    variable.minimum = table.quantity_if(unit, "minimum");
+    variable.at_least = table.quantity_if(unit, "at_least");
+    variable.maximum = table.quantity_if(unit, "maximum");
     if (variable.minimum && variable.maximum && *variable.minimum >= *variable.maximum)
       table.error("maximum", "'maximum' must be above 'minimum'");
   }
@@ -134,7 +122,7 @@ TestDefinition read_test_definition(const std::filesystem::path &folder, ErrorCo
       TomlTable response(*node->as_table(), "[responses." + name + "]", file, errors);
       ResponseDefinition entry;
       entry.name = name;
-      entry.unit = unit_text(response, true);
+      entry.unit = read_unit(response, true).value_or("");
       entry.function = response.text("from", true);
       entry.place = response.has("from") ? response.place("from") : response.place();
       response.text("description");
@@ -146,12 +134,12 @@ TestDefinition read_test_definition(const std::filesystem::path &folder, ErrorCo
   return definition;
 }
 
-std::string why_not_allowed(const DeckVariable &variable, double si_value) {
+std::string why_not_allowed(const DeckVariable &variable, double value) {
   if (!variable.choices.empty()) return "it takes a word: " + join(variable.choices);
   const auto shown = [&](double limit) { return format_quantity(limit, variable.unit, 6); };
-  if (variable.minimum && si_value <= *variable.minimum) return "it must be above " + shown(*variable.minimum);
-  if (variable.at_least && si_value < *variable.at_least) return "it must be at least " + shown(*variable.at_least);
-  if (variable.maximum && si_value > *variable.maximum) return "it must be at most " + shown(*variable.maximum);
+  if (variable.minimum && value <= *variable.minimum) return "it must be above " + shown(*variable.minimum);
+  if (variable.at_least && value < *variable.at_least) return "it must be at least " + shown(*variable.at_least);
+  if (variable.maximum && value > *variable.maximum) return "it must be at most " + shown(*variable.maximum);
   return "";
 }
 

@@ -18,7 +18,7 @@ namespace bondlab {
 
 struct DeckVariable {
   std::string name;
-  std::string unit = "1";
+  std::string unit = "1";                // "" after an error in it
   std::optional<double> minimum;         // exclusive: `minimum = 0` means > 0
   std::optional<double> at_least;        // inclusive: `at_least = 0` means >= 0
   std::optional<double> maximum;         // inclusive
@@ -54,6 +54,6 @@ TestDefinition read_test_definition(const std::filesystem::path &folder, ErrorCo
 const std::vector<std::string> &variables_from_specimen();  // specimen, width, height, diameter, thickness
 
 // A number for a deck variable, judged against minimum and maximum; "" when allowed, else what is wrong with it.
-std::string why_not_allowed(const DeckVariable &variable, double si_value);
+std::string why_not_allowed(const DeckVariable &variable, double value);
 
 }  // namespace bondlab

@@ -25,7 +25,7 @@ std::string kind_of(const toml::node &node) {
   switch (node.type()) {
     case toml::node_type::string: return "a string";
     case toml::node_type::integer: return "an integer";
-    case toml::node_type::floating_point: return "a number";
+    case toml::node_type::floating_point: return "a number with a decimal point";
     case toml::node_type::boolean: return "true or false";
     case toml::node_type::array: return "a list";
     case toml::node_type::table: return "a table";
@@ -135,6 +135,31 @@ std::optional<double> TomlTable::quantity(const std::string &key, const std::str
   const toml::node *node = get(key, required, ("\"1 " + unit + "\"").c_str());
   if (!node) return std::nullopt;
   return quantity_of(*node, unit, place(key), errors_);
+}
+
+std::optional<double> TomlTable::quantity_if(const std::optional<std::string> &unit, const std::string &key, bool required) {
+  if (unit) return quantity(key, *unit, required);
+  know(key);
+  return std::nullopt;
+}
+
+std::string TomlTable::given(const std::string &key) const {
+  const toml::node *node = table_.get(key);
+  return node ? shown(*node) : "nothing";
+}
+
+std::optional<std::string> read_unit(TomlTable &table, bool required) {
+  const std::size_t before = table.errors().errors().size();
+  const std::string unit = table.text("unit", required);
+  if (table.errors().errors().size() > before) return std::nullopt;
+  if (unit.empty()) return "1";
+  try {
+    parse_unit(unit);
+  } catch (const UnitError &error) {
+    table.error("unit", error.text());
+    return std::nullopt;
+  }
+  return unit;
 }
 
 std::vector<std::string> TomlTable::words(const std::string &key, bool required) {

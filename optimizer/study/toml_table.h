@@ -39,6 +39,8 @@ class TomlTable {
   long whole(const std::string &key, long fallback, long minimum, long maximum, bool required = false);
   // "41.5 GPa" of the dimension of `unit`; a bare number only where `unit` is dimensionless.
   std::optional<double> quantity(const std::string &key, const std::string &unit, bool required = false);
+  // The same where the unit itself may have been wrong: then the key only counts as known.
+  std::optional<double> quantity_if(const std::optional<std::string> &unit, const std::string &key, bool required = false);
   std::vector<std::string> words(const std::string &key, bool required = false);
   // Sub-table or nullptr; array of tables or an empty list.
   const toml::table *table(const std::string &key, bool required = false);
@@ -48,6 +50,7 @@ class TomlTable {
 
   Place place_of(const toml::node &node) const;
   void error(const std::string &key, const std::string &text);  // at the value of `key`
+  std::string given(const std::string &key) const;              // the value as written, for messages
   void finish();                                               // unknown keys
 
   const std::string &file() const { return file_; }
@@ -66,6 +69,9 @@ class TomlTable {
 
 // A quantity from a node (string with a unit, or number where dimensionless); nullopt and an error otherwise.
 std::optional<double> quantity_of(const toml::node &node, const std::string &unit, const Place &place, ErrorCollector &errors);
+
+// The key `unit`: a unit's text, nullopt after an error; "1" when it is absent and not required.
+std::optional<std::string> read_unit(TomlTable &table, bool required);
 
 // "a string", "an integer", ... for messages.
 std::string kind_of(const toml::node &node);
