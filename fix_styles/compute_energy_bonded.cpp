@@ -19,11 +19,11 @@ namespace {
 enum Part { BOND, CONTACT, TRANSLATION, ROTATION, PARTS };
 }
 
-ComputeEnergyBonded::ComputeEnergyBonded(LAMMPS *lmp, int narg, char **arg)
-    : Compute(lmp, narg, arg), style_(AtomVecBondedSphere::of(lmp, "compute energy/bonded")) {
-  if (narg != 3) {
+ComputeEnergyBonded::ComputeEnergyBonded(LAMMPS *lmp, int &iarg, int narg, char **arg)
+    : Compute(lmp, iarg, narg, arg), style_(AtomVecBondedSphere::of(lmp, "compute energy/bonded")) {
+  if (narg > iarg) {
     const std::string text =
-        std::string("compute energy/bonded takes no further words, '") + arg[3] + "' was given";
+        std::string("compute energy/bonded takes no further words, '") + arg[iarg] + "' was given";
     error->all(FLERR, text.c_str());
   }
   vector_flag = 1;
@@ -42,17 +42,16 @@ void ComputeEnergyBonded::init() {
 void ComputeEnergyBonded::compute_vector() {
   invoked_vector = update->ntimestep;
   bondlab::ExactSums<PARTS> sums;
-  for (auto &sum : sums) sum.clear();
   if (BondBPM *bond = dynamic_cast<BondBPM *>(force->bond)) {
     for (int row = 0; row < style_->bonds.size(); row++) {
       if (!bond->counted_here(row)) continue;
-      sums[BOND].add(bond->row_energy(row));
-      sums[CONTACT].add(bond->contact_row_energy(row));
+      sums.add(BOND, bond->row_energy(row));
+      sums.add(CONTACT, bond->contact_row_energy(row));
     }
   }
   if (PairGrain *grain = dynamic_cast<PairGrain *>(force->pair))
     grain->for_each_contact([&](double kn, double ks, double overlap, double shear) {
-      sums[CONTACT].add(bondlab::laws::contact_energy(kn * overlap, shear, kn, ks));
+      sums.add(CONTACT, bondlab::laws::contact_energy(kn * overlap, shear, kn, ks));
     });
   const double inertia = domain->dimension == 2 ? 0.5 : 0.4;
   for (int i = 0; i < atom->nlocal; i++) {
@@ -62,9 +61,9 @@ void ComputeEnergyBonded::compute_vector() {
       w2 += atom->omega[i][d] * atom->omega[i][d];
     }
     const double m = atom->rmass[i], r = atom->radius[i];
-    sums[TRANSLATION].add(0.5 * m * v2);
-    sums[ROTATION].add(0.5 * inertia * m * r * r * w2);
+    sums.add(TRANSLATION, 0.5 * m * v2);
+    sums.add(ROTATION, 0.5 * inertia * m * r * r * w2);
   }
   bondlab::sum_over_ranks(sums, world);
-  for (int k = 0; k < PARTS; k++) vector[k] = sums[k].value();
+  for (int k = 0; k < PARTS; k++) vector[k] = sums.value(k);
 }

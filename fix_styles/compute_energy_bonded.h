@@ -18,7 +18,7 @@ namespace LAMMPS_NS {
 
 class ComputeEnergyBonded : public Compute {
  public:
-  ComputeEnergyBonded(class LAMMPS *, int, char **);
+  ComputeEnergyBonded(class LAMMPS *, int &iarg, int narg, char **arg);
   ~ComputeEnergyBonded();
   void init();
   void compute_vector();
