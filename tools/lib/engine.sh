@@ -65,7 +65,8 @@ engine_identity() {
   fi
   echo "recipe $engine_recipe"
   echo "source $source"
-  echo "compiler $("$cxx" --version | head -n 1) $("$cxx" -dumpmachine)"
+  # Without the first word: g++ and c++ are one compiler under two names.
+  echo "compiler $("$cxx" --version | head -n 1 | cut -d ' ' -f 2-) $("$cxx" -dumpmachine)"
   echo "mpi $(mpi_cxx -show 2>/dev/null | cut -d ' ' -f 2-) $(mpirun --version 2>/dev/null | head -n 1)"
   echo "flags $(engine_flags)"
   # shellcheck disable=SC2046  # a list of flags
@@ -212,10 +213,11 @@ build_engine() {
 
   local entry=$work/entry
   mkdir -p "$entry/src"
-  cp "$work/tree/src"/*.h "$work/tree/src"/{force,atom}.cpp "$entry/src/" &&
+  if ! { cp "$work/tree/src"/*.h "$work/tree/src"/{force,atom}.cpp "$entry/src/" &&
     mv "$work/tree/libliggghts.a" "$entry/" &&
-    echo "$identity" > "$entry/manifest" && sync -f "$entry/manifest" ||
-    die "cannot write $entry: disk full? free some space and run again"
+    echo "$identity" > "$entry/manifest" && sync -f "$entry/manifest"; } 2>> "$log"; then
+    die "cannot write $entry: $(reason) (log: $log)"
+  fi
   # Without a manifest under the final name there is no finished entry, only debris.
   rm -rf "$engine_dir"
   mv "$entry" "$engine_dir"
