@@ -26,6 +26,8 @@ struct PlantedError {
   std::vector<std::string> messages;
 };
 
+void PrintTo(const PlantedError &planted, std::ostream *out) { *out << planted.title; }
+
 std::vector<PlantedError> planted_errors() {
   std::vector<PlantedError> cases;
   for (const fs::directory_entry &entry : fs::directory_iterator(kTestdata / "errors")) {

@@ -79,6 +79,14 @@ TEST(ReadStudy, DeckVariablesFollowWhatTheParametersSet) {
   EXPECT_EQ(variables, (std::map<std::string, double>{{"E_c", 30e9}, {"E_b", 30e9}, {"sigma_c", 120e6}}));
 }
 
+TEST(TestDefinition, LimitsAreInTheVariablesUnitAndTheDeckGetsItsOwn) {
+  const DeckVariable angle = good_study().test("ucs").definition.variables.at("friction_angle");
+  EXPECT_DOUBLE_EQ(*angle.maximum, std::acos(-1.0) / 3) << "60 deg in SI";
+  EXPECT_NEAR(deck_number(angle, std::acos(-1.0) / 6), 30, 1e-13);
+  EXPECT_EQ(why_not_allowed(angle, 1.2), "it must be at most 60 deg");
+  EXPECT_EQ(why_not_allowed(angle, 0), "");
+}
+
 TEST(ReadStudy, LooksUpNamesOrSaysWhichThereAre) {
   const Study study = good_study();
   try {

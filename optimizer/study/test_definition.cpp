@@ -37,9 +37,9 @@ DeckVariable read_variable(const std::string &name, TomlTable table) {
   if (variable.choices.empty()) {
     const std::optional<std::string> unit = read_unit(table, true);
     variable.unit = unit.value_or("");
-    variable.minimum = table.quantity_if(unit, "minimum");
-    variable.at_least = table.quantity_if(unit, "at_least");
-    variable.maximum = table.quantity_if(unit, "maximum");
+    variable.minimum = table.limit_if(unit, "minimum");
+    variable.at_least = table.limit_if(unit, "at_least");
+    variable.maximum = table.limit_if(unit, "maximum");
     if (variable.minimum && variable.maximum && *variable.minimum >= *variable.maximum)
       table.error("maximum", "'maximum' must be above 'minimum'");
   }
@@ -107,6 +107,7 @@ TestDefinition read_test_definition(const std::filesystem::path &folder, ErrorCo
   if (const toml::table *table = top.table("outputs")) {
     TomlTable outputs(*table, "[outputs]", file, errors);
     if (outputs.has("curve")) definition.curve = outputs.text("curve", true);
+    definition.columns = outputs.words("columns");
     if (outputs.has("events")) definition.events = outputs.text("events");
     if (outputs.has("particles")) definition.particles = outputs.text("particles");
     outputs.finish();
@@ -133,6 +134,8 @@ TestDefinition read_test_definition(const std::filesystem::path &folder, ErrorCo
   top.finish();
   return definition;
 }
+
+double deck_number(const DeckVariable &variable, double value) { return from_si(value, variable.unit); }
 
 std::string why_not_allowed(const DeckVariable &variable, double value) {
   if (!variable.choices.empty()) return "it takes a word: " + join(variable.choices);

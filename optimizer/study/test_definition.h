@@ -3,7 +3,7 @@
 // Job: what a virtual test's test.toml declares: its deck, the variables the optimiser may set, its outputs and responses.
 // Method: read once per test folder with positions kept; the deck is searched for `variable NAME index DEFAULT` lines, and
 //   every variable declared in test.toml must be there, so that the two files can't drift apart.
-// Units: `unit` is the SI unit of the number that the deck gets. Failure: errors go to the collector with file:line:column.
+// Units: `unit` is what the deck's number is in; limits and values are SI here and converted when they go to the deck. Failure: errors go to the collector with file:line:column.
 #pragma once
 
 #include <filesystem>
@@ -44,6 +44,7 @@ struct TestDefinition {
   std::map<std::string, std::string> deck_defaults;  // every `variable NAME index DEFAULT` of the deck
   std::map<std::string, ResponseDefinition> responses;
   std::string curve = "curve.tsv", events = "broken_bonds.tsv", particles = "particles_end.txt";  // names in the run directory
+  std::vector<std::string> columns;  // the curve must have; empty: any
   std::vector<std::string> shapes;  // specimens it can hold; empty: any
 };
 
@@ -52,6 +53,9 @@ TestDefinition read_test_definition(const std::filesystem::path &folder, ErrorCo
 
 // Deck variables that the launcher fills in from the specimen; neither test.toml nor a study may set them.
 const std::vector<std::string> &variables_from_specimen();  // specimen, width, height, diameter, thickness
+
+// The number the deck gets: the SI value in the variable's own unit.
+double deck_number(const DeckVariable &variable, double value);
 
 // A number for a deck variable, judged against minimum and maximum; "" when allowed, else what is wrong with it.
 std::string why_not_allowed(const DeckVariable &variable, double value);

@@ -143,6 +143,18 @@ std::optional<double> TomlTable::quantity_if(const std::optional<std::string> &u
   return std::nullopt;
 }
 
+std::optional<double> TomlTable::limit_if(const std::optional<std::string> &unit, const std::string &key) {
+  const toml::node *node = table_.get(key);
+  if (unit && node && node->is_number()) {
+    know(key);
+    const double value = node->is_integer() ? static_cast<double>(node->as_integer()->get()) : node->as_floating_point()->get();
+    if (std::isfinite(value)) return to_si(value, *unit);
+    error(key, "'" + key + "' can't be " + shown(*node) + "; leave it out where there is no limit");
+    return std::nullopt;
+  }
+  return quantity_if(unit, key);
+}
+
 std::string TomlTable::given(const std::string &key) const {
   const toml::node *node = table_.get(key);
   return node ? shown(*node) : "nothing";

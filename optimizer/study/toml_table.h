@@ -41,6 +41,8 @@ class TomlTable {
   std::optional<double> quantity(const std::string &key, const std::string &unit, bool required = false);
   // The same where the unit itself may have been wrong: then the key only counts as known.
   std::optional<double> quantity_if(const std::optional<std::string> &unit, const std::string &key, bool required = false);
+  // A number in `unit` itself, or a quantity; for test.toml, where the unit stands two lines above.
+  std::optional<double> limit_if(const std::optional<std::string> &unit, const std::string &key);
   std::vector<std::string> words(const std::string &key, bool required = false);
   // Sub-table or nullptr; array of tables or an empty list.
   const toml::table *table(const std::string &key, bool required = false);
