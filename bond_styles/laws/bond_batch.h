@@ -17,41 +17,42 @@
 namespace bondlab::laws {
 
 // Lanes in a block: 8 AVX-512 vectors of doubles; temporaries of a block stay in the first cache.
+// Every array of a block is a whole number of cache lines, so aligning the struct aligns them all.
 inline constexpr int kBlock = 64;
 
 // Relative motion of one block of pairs over one time step, 3D.
-struct Kinematics3 {
-  alignas(64) double dx[kBlock], dy[kBlock], dz[kBlock];  // x_j - x_i now, m
-  alignas(64) double ux[kBlock], uy[kBlock], uz[kBlock];  // its change over the step, m
+struct alignas(64) Kinematics3 {
+  double dx[kBlock], dy[kBlock], dz[kBlock];  // x_j - x_i now, m
+  double ux[kBlock], uy[kBlock], uz[kBlock];  // its change over the step, m
   // rotation of the bond's two ends over the step, weighted by radius:
   // (R_i w_i + R_j w_j) dt / (R_i + R_j), rad
-  alignas(64) double sx[kBlock], sy[kBlock], sz[kBlock];
-  alignas(64) double qx[kBlock], qy[kBlock], qz[kBlock];  // (w_j - w_i) dt, rad
-  alignas(64) double ri[kBlock], rj[kBlock];              // radii, m
+  double sx[kBlock], sy[kBlock], sz[kBlock];
+  double qx[kBlock], qy[kBlock], qz[kBlock];  // (w_j - w_i) dt, rad
+  double ri[kBlock], rj[kBlock];              // radii, m
 };
 
 // Loads of one block of pairs, 3D. The contact point is a fraction R_i/(R_i+R_j) of the way from
 // i to j, so that the arms always sum to the current distance. With e the unit vector i -> j:
 //   force on i = f, on j = -f
 //   torque on i = m + (a_i e) x f,  torque on j = -m + (a_j e) x f,  a_i + a_j = |x_j - x_i|
-struct PairLoads3 {
-  alignas(64) double fx[kBlock], fy[kBlock], fz[kBlock];     // N
-  alignas(64) double tix[kBlock], tiy[kBlock], tiz[kBlock];  // N m, on i
-  alignas(64) double tjx[kBlock], tjy[kBlock], tjz[kBlock];  // N m, on j
+struct alignas(64) PairLoads3 {
+  double fx[kBlock], fy[kBlock], fz[kBlock];     // N
+  double tix[kBlock], tiy[kBlock], tiz[kBlock];  // N m, on i
+  double tjx[kBlock], tjy[kBlock], tjz[kBlock];  // N m, on j
 };
 
 // The same in the plane. Rotations and moments are about +z.
-struct Kinematics2 {
-  alignas(64) double dx[kBlock], dy[kBlock];  // x_j - x_i now, m
-  alignas(64) double ux[kBlock], uy[kBlock];  // its change over the step, m
-  alignas(64) double s[kBlock];               // (R_i w_i + R_j w_j) dt / (R_i + R_j), rad
-  alignas(64) double q[kBlock];               // (w_j - w_i) dt, rad
-  alignas(64) double ri[kBlock], rj[kBlock];  // radii, m
+struct alignas(64) Kinematics2 {
+  double dx[kBlock], dy[kBlock];  // x_j - x_i now, m
+  double ux[kBlock], uy[kBlock];  // its change over the step, m
+  double s[kBlock];               // (R_i w_i + R_j w_j) dt / (R_i + R_j), rad
+  double q[kBlock];               // (w_j - w_i) dt, rad
+  double ri[kBlock], rj[kBlock];  // radii, m
 };
 
-struct PairLoads2 {
-  alignas(64) double fx[kBlock], fy[kBlock];  // N
-  alignas(64) double ti[kBlock], tj[kBlock];  // N m
+struct alignas(64) PairLoads2 {
+  double fx[kBlock], fy[kBlock];  // N
+  double ti[kBlock], tj[kBlock];  // N m
 };
 
 // What a law says of a bond after a step.

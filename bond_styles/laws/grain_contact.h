@@ -72,12 +72,14 @@ inline void contact_block_3d(const Kinematics3& k, const ContactParameters& c, b
                              double* __restrict shear_x, double* __restrict shear_y,
                              double* __restrict shear_z, PairLoads3& out) {
   const double keep_state = advance ? 1.0 : 0.0;
+  const double *__restrict reference = c.reference, *__restrict kn = c.kn, *__restrict ks = c.ks,
+               *__restrict mu = c.mu;
 #pragma GCC ivdep
   for (int b = 0; b < kBlock; ++b) {
     const PairStep3 p({k.dx[b], k.dy[b], k.dz[b]}, {k.ux[b], k.uy[b], k.uz[b]},
                       {k.sx[b], k.sy[b], k.sz[b]}, {k.qx[b], k.qy[b], k.qz[b]});
     const Vec3 stored{shear_x[b], shear_y[b], shear_z[b]};
-    const ContactForce3 f = contact_force(p, stored, c.reference[b], c.kn[b], c.ks[b], c.mu[b]);
+    const ContactForce3 f = contact_force(p, stored, reference[b], kn[b], ks[b], mu[b]);
     const Vec3 force = f.shear - f.normal * p.e;
     const double arm = p.distance / (k.ri[b] + k.rj[b]);
     const Vec3 moment = cross(p.e, f.shear);
@@ -95,11 +97,13 @@ inline void contact_block_3d(const Kinematics3& k, const ContactParameters& c, b
 inline void contact_block_2d(const Kinematics2& k, const ContactParameters& c, bool advance,
                              double* __restrict shear, PairLoads2& out) {
   const double keep_state = advance ? 1.0 : 0.0;
+  const double *__restrict reference = c.reference, *__restrict kn = c.kn, *__restrict ks = c.ks,
+               *__restrict mu = c.mu;
 #pragma GCC ivdep
   for (int b = 0; b < kBlock; ++b) {
     const PairStep2 p(k.dx[b], k.dy[b], k.ux[b], k.uy[b], k.s[b]);
     const double stored = shear[b];
-    const ContactForce2 f = contact_force(p, stored, c.reference[b], c.kn[b], c.ks[b], c.mu[b]);
+    const ContactForce2 f = contact_force(p, stored, reference[b], kn[b], ks[b], mu[b]);
     out.fx[b] = -f.normal * p.ex - f.shear * p.ey;
     out.fy[b] = -f.normal * p.ey + f.shear * p.ex;
     const double arm = p.distance / (k.ri[b] + k.rj[b]);

@@ -75,7 +75,7 @@ struct ParallelArrays3 {
   double *mt;              // twisting moment on i, N m
   // report of the step, written
   double *sigma, *tau;     // rim stresses before any break, Pa
-  unsigned char* fate;     // BondFate
+  double* fate;            // BondFate as a number: doubles alone keep the loop vectorised
 };
 
 struct ParallelArrays2 {
@@ -85,7 +85,7 @@ struct ParallelArrays2 {
   double *fs;              // shear force on i along t = z x e, N
   double *mb;              // bending moment on i about z, N m
   double *sigma, *tau;
-  unsigned char* fate;
+  double* fate;
 };
 
 // One block in 3D: bond and grain contact together; `out` gets their sum.
@@ -94,32 +94,44 @@ template <bool advance>
 void parallel_block_3d(const Kinematics3& k, const ParallelArrays3& a, const ContactParameters& c,
                        double* __restrict csx, double* __restrict csy, double* __restrict csz,
                        PairLoads3& out) {
+  // Local restrict pointers: through the structs the compiler must reload them at every store.
+  const double *__restrict rest = a.rest, *__restrict radius = a.radius,
+               *__restrict stiffness = a.stiffness, *__restrict ratio = a.ratio,
+               *__restrict beta = a.beta, *__restrict tan_phi = a.tan_phi,
+               *__restrict sigma_c = a.sigma_c, *__restrict tau_c = a.tau_c,
+               *__restrict reference = c.reference, *__restrict kn_c = c.kn,
+               *__restrict ks_c = c.ks, *__restrict mu_c = c.mu;
+  double *__restrict alive_b = a.alive, *__restrict sigma_b = a.sigma, *__restrict tau_b = a.tau,
+         *__restrict fate_b = a.fate;
+  double *__restrict fsx = a.fsx, *__restrict fsy = a.fsy, *__restrict fsz = a.fsz,
+         *__restrict mbx = a.mbx, *__restrict mby = a.mby, *__restrict mbz = a.mbz,
+         *__restrict mt_b = a.mt;
 #pragma GCC ivdep
   for (int b = 0; b < kBlock; ++b) {
     const PairStep3 p({k.dx[b], k.dy[b], k.dz[b]}, {k.ux[b], k.uy[b], k.uz[b]},
                       {k.sx[b], k.sy[b], k.sz[b]}, {k.qx[b], k.qy[b], k.qz[b]});
-    const ContactForce3 grain = contact_force(p, Vec3{csx[b], csy[b], csz[b]}, c.reference[b],
-                                              c.kn[b], c.ks[b], c.mu[b]);
-    const BondSection section = round_section(a.radius[b]);
-    const double kn = a.stiffness[b], ks = kn / a.ratio[b], alive = a.alive[b];
-    const double fn = kn * section.area * (p.distance - a.rest[b]);
-    const Vec3 fs = p.carried(Vec3{a.fsx[b], a.fsy[b], a.fsz[b]}) + (ks * section.area) * p.shear;
-    const Vec3 mb = p.carried(Vec3{a.mbx[b], a.mby[b], a.mbz[b]}) + (kn * section.bend) * p.bend;
-    const double mt = a.mt[b] + ks * section.twist * p.twist;
+    const ContactForce3 grain = contact_force(p, Vec3{csx[b], csy[b], csz[b]}, reference[b],
+                                              kn_c[b], ks_c[b], mu_c[b]);
+    const BondSection section = round_section(radius[b]);
+    const double kn = stiffness[b], ks = kn / ratio[b], alive = alive_b[b];
+    const double fn = kn * section.area * (p.distance - rest[b]);
+    const Vec3 fs = p.carried(Vec3{fsx[b], fsy[b], fsz[b]}) + (ks * section.area) * p.shear;
+    const Vec3 mb = p.carried(Vec3{mbx[b], mby[b], mbz[b]}) + (kn * section.bend) * p.bend;
+    const double mt = mt_b[b] + ks * section.twist * p.twist;
 
     const double inverse_area = 1.0 / section.area;
-    const double rim = a.beta[b] * a.radius[b];
+    const double rim = beta[b] * radius[b];
     const double sigma_n = fn * inverse_area;
     const double sigma = sigma_n + rim * std::sqrt(dot(mb, mb)) / section.bend;
     const double tau =
         std::sqrt(dot(fs, fs)) * inverse_area + rim * std::fabs(mt) / section.twist;
-    const bool tension = sigma >= a.sigma_c[b];
-    const bool shear = tau >= a.tau_c[b] - sigma_n * a.tan_phi[b];
+    const bool tension = sigma >= sigma_c[b];
+    const bool shear = tau >= tau_c[b] - sigma_n * tan_phi[b];
     const double hold = advance ? ((tension | shear) ? 0.0 : alive) : alive;
-    a.sigma[b] = alive * sigma;
-    a.tau[b] = alive * tau;
-    a.fate[b] = static_cast<unsigned char>(
-        !advance || alive == 0.0 ? 0 : (tension ? 1 : (shear ? 2 : 0)));
+    sigma_b[b] = alive * sigma;
+    tau_b[b] = alive * tau;
+    fate_b[b] = 
+        !advance || alive == 0.0 ? 0.0 : (tension ? 1.0 : (shear ? 2.0 : 0.0));
 
     const Vec3 across = grain.shear + hold * fs;
     const Vec3 force = across + (hold * fn - grain.normal) * p.e;
@@ -133,10 +145,10 @@ void parallel_block_3d(const Kinematics3& k, const ParallelArrays3& a, const Con
     out.tjx[b] = aj * lever.x - moment.x, out.tjy[b] = aj * lever.y - moment.y;
     out.tjz[b] = aj * lever.z - moment.z;
     if (advance) {
-      a.alive[b] = hold;
-      a.fsx[b] = hold * fs.x, a.fsy[b] = hold * fs.y, a.fsz[b] = hold * fs.z;
-      a.mbx[b] = hold * mb.x, a.mby[b] = hold * mb.y, a.mbz[b] = hold * mb.z;
-      a.mt[b] = hold * mt;
+      alive_b[b] = hold;
+      fsx[b] = hold * fs.x, fsy[b] = hold * fs.y, fsz[b] = hold * fs.z;
+      mbx[b] = hold * mb.x, mby[b] = hold * mb.y, mbz[b] = hold * mb.z;
+      mt_b[b] = hold * mt;
       csx[b] = grain.shear.x, csy[b] = grain.shear.y, csz[b] = grain.shear.z;
     }
   }
@@ -146,28 +158,39 @@ void parallel_block_3d(const Kinematics3& k, const ParallelArrays3& a, const Con
 template <bool advance>
 void parallel_block_2d(const Kinematics2& k, const ParallelArrays2& a, const ContactParameters& c,
                        double* __restrict cs, PairLoads2& out) {
+  // Local restrict pointers: through the structs the compiler must reload them at every store.
+  const double *__restrict rest = a.rest, *__restrict radius = a.radius,
+               *__restrict stiffness = a.stiffness, *__restrict ratio = a.ratio,
+               *__restrict beta = a.beta, *__restrict tan_phi = a.tan_phi,
+               *__restrict sigma_c = a.sigma_c, *__restrict tau_c = a.tau_c,
+               *__restrict reference = c.reference, *__restrict kn_c = c.kn,
+               *__restrict ks_c = c.ks, *__restrict mu_c = c.mu;
+  double *__restrict alive_b = a.alive, *__restrict sigma_b = a.sigma, *__restrict tau_b = a.tau,
+         *__restrict fate_b = a.fate;
+  double *__restrict fs_b = a.fs, *__restrict mb_b = a.mb;
+  const double thickness = a.thickness;
 #pragma GCC ivdep
   for (int b = 0; b < kBlock; ++b) {
     const PairStep2 p(k.dx[b], k.dy[b], k.ux[b], k.uy[b], k.s[b]);
     const ContactForce2 grain =
-        contact_force(p, cs[b], c.reference[b], c.kn[b], c.ks[b], c.mu[b]);
-    const BondSection section = strip_section(a.radius[b], a.thickness);
-    const double kn = a.stiffness[b], ks = kn / a.ratio[b], alive = a.alive[b];
-    const double fn = kn * section.area * (p.distance - a.rest[b]);
-    const double fs = a.fs[b] + ks * section.area * p.shear;
-    const double mb = a.mb[b] + kn * section.bend * k.q[b];
+        contact_force(p, cs[b], reference[b], kn_c[b], ks_c[b], mu_c[b]);
+    const BondSection section = strip_section(radius[b], thickness);
+    const double kn = stiffness[b], ks = kn / ratio[b], alive = alive_b[b];
+    const double fn = kn * section.area * (p.distance - rest[b]);
+    const double fs = fs_b[b] + ks * section.area * p.shear;
+    const double mb = mb_b[b] + kn * section.bend * k.q[b];
 
     const double inverse_area = 1.0 / section.area;
     const double sigma_n = fn * inverse_area;
-    const double sigma = sigma_n + a.beta[b] * a.radius[b] * std::fabs(mb) / section.bend;
+    const double sigma = sigma_n + beta[b] * radius[b] * std::fabs(mb) / section.bend;
     const double tau = std::fabs(fs) * inverse_area;
-    const bool tension = sigma >= a.sigma_c[b];
-    const bool shear = tau >= a.tau_c[b] - sigma_n * a.tan_phi[b];
+    const bool tension = sigma >= sigma_c[b];
+    const bool shear = tau >= tau_c[b] - sigma_n * tan_phi[b];
     const double hold = advance ? ((tension | shear) ? 0.0 : alive) : alive;
-    a.sigma[b] = alive * sigma;
-    a.tau[b] = alive * tau;
-    a.fate[b] = static_cast<unsigned char>(
-        !advance || alive == 0.0 ? 0 : (tension ? 1 : (shear ? 2 : 0)));
+    sigma_b[b] = alive * sigma;
+    tau_b[b] = alive * tau;
+    fate_b[b] = 
+        !advance || alive == 0.0 ? 0.0 : (tension ? 1.0 : (shear ? 2.0 : 0.0));
 
     const double along = hold * fn - grain.normal, across = grain.shear + hold * fs;
     const double arm = p.distance / (k.ri[b] + k.rj[b]);
@@ -176,9 +199,9 @@ void parallel_block_2d(const Kinematics2& k, const ParallelArrays2& a, const Con
     out.ti[b] = hold * mb + arm * k.ri[b] * across;
     out.tj[b] = arm * k.rj[b] * across - hold * mb;
     if (advance) {
-      a.alive[b] = hold;
-      a.fs[b] = hold * fs;
-      a.mb[b] = hold * mb;
+      alive_b[b] = hold;
+      fs_b[b] = hold * fs;
+      mb_b[b] = hold * mb;
       cs[b] = grain.shear;
     }
   }

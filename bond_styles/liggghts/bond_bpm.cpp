@@ -62,9 +62,8 @@ void BondBPM::refresh() {
   seen_generation_ = style_->generation;
   const PairTable &t = table();
   const int n = t.size(), padded = static_cast<int>(t.at_lo.size());
-  for (auto *v : {&kn_c_, &ks_c_, &mu_c_, &alive_, &ri_, &rj_, &sigma_c_, &tau_c_, &sigma_, &tau_})
+  for (auto *v : {&kn_c_, &ks_c_, &mu_c_, &alive_, &ri_, &rj_, &sigma_c_, &tau_c_})
     v->assign(padded, 0.0);
-  fate_.assign(padded, 0);
   resize_constants(padded);
   const double *radius = atom->radius;
   const int *type = atom->type;
@@ -104,13 +103,16 @@ void BondBPM::scatter(int first, const PairLoads2 &loads) const {
   bondlab::scatter(table(), first, atom->nlocal, loads, atom->f, atom->torque);
 }
 
-void BondBPM::finish_step(int first) {
+void BondBPM::finish_step(int first, const Report &report) {
+  int dead = 0;
+  for (int k = 0; k < kBlock; k++) dead += alive_[first + k] == 0.0;
+  if (!dead) return;
   PairTable &t = table();
   const int n = std::min(kBlock, t.size() - first);
   for (int k = 0; k < n; k++) {
     const int row = first + k;
     if (alive_[row] != 0.0) continue;
-    if (fate_[row] != static_cast<unsigned char>(BondFate::intact)) {
+    if (report.fate[k] != 0.0) {
       t.info[row] |= BROKEN;
       if (counted_here(row)) {
         BreakEvent event;
@@ -121,14 +123,13 @@ void BondBPM::finish_step(int first) {
         const double share = ri_[row] / (ri_[row] + rj_[row]);
         const double *a = atom->x[t.at_lo[row]], *b = atom->x[t.at_hi[row]];
         for (int d = 0; d < 3; d++) event.x[d] = a[d] + share * (b[d] - a[d]);
-        event.mode = fate_[row] == static_cast<unsigned char>(BondFate::broken_in_shear);
-        event.sigma = sigma_[row];
-        event.tau = tau_[row];
+        event.mode = report.fate[k] == static_cast<double>(BondFate::broken_in_shear);
+        event.sigma = report.sigma[k];
+        event.tau = report.tau[k];
         event.sigma_c = sigma_c_[row];
         event.tau_c = tau_c_[row];
         events.push_back(event);
       }
-      fate_[row] = 0;
     }
     if (!(t.info[row] & SEPARATED)) {
       const double *a = atom->x[t.at_lo[row]], *b = atom->x[t.at_hi[row]];
@@ -165,5 +166,5 @@ double BondBPM::single(int, double, int, int, double &fforce) {
 }
 
 double BondBPM::memory_usage() {
-  return (10.0 * sizeof(double) + 1) * padded();
+  return 8.0 * sizeof(double) * padded();
 }

@@ -71,8 +71,11 @@ class BondBPM : public Bond {
   bigint seen_generation_;
   // constants of each row, [rows padded to blocks], derived from coefficients and tags
   std::vector<double> kn_c_, ks_c_, mu_c_, alive_, ri_, rj_, sigma_c_, tau_c_;
-  std::vector<double> sigma_, tau_;        // of the last step, Pa
-  std::vector<unsigned char> fate_;
+  // what a law says of one block
+  struct alignas(64) Report {
+    double sigma[bondlab::laws::kBlock], tau[bondlab::laws::kBlock];  // Pa
+    double fate[bondlab::laws::kBlock];                               // BondFate
+  };
 
   bondlab::PairTable &table() const { return style_->bonds; }
   double *column(int c) { return table().state[c].data(); }
@@ -84,7 +87,7 @@ class BondBPM : public Bond {
   void gather(int first, double dt, bondlab::laws::Kinematics2 &) const;
   void scatter(int first, const bondlab::laws::PairLoads3 &) const;
   void scatter(int first, const bondlab::laws::PairLoads2 &) const;
-  void finish_step(int first);  // breaks and separations of one block
+  void finish_step(int first, const Report &);  // breaks and separations of one block
   bondlab::laws::ContactParameters contact_block(int first) const;
   [[noreturn]] void bad(const std::string &text) const;  // a user's mistake in a command
 };

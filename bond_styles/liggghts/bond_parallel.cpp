@@ -138,6 +138,7 @@ void BondParallel::compute_blocks() {
   const bool flat = domain->dimension == 2;
   for (int b = 0; b < n; b += kBlock) {
     const ContactParameters contact = contact_block(b);
+    Report report;
     if (flat) {
       Kinematics2 k;
       PairLoads2 loads;
@@ -146,7 +147,7 @@ void BondParallel::compute_blocks() {
                               ratio_.data() + b, beta_.data() + b, tan_phi_.data() + b,
                               sigma_c_.data() + b, tau_c_.data() + b, style_->thickness,
                               alive_.data() + b, column(FSX) + b, column(MBX) + b,
-                              sigma_.data() + b, tau_.data() + b, fate_.data() + b};
+                              report.sigma, report.tau, report.fate};
       parallel_block_2d<advance>(k, a, contact, column(CSX) + b, loads);
       scatter(b, loads);
     } else {
@@ -158,12 +159,12 @@ void BondParallel::compute_blocks() {
                               sigma_c_.data() + b, tau_c_.data() + b, alive_.data() + b,
                               column(FSX) + b, column(FSY) + b, column(FSZ) + b,
                               column(MBX) + b, column(MBY) + b, column(MBZ) + b, column(MT) + b,
-                              sigma_.data() + b, tau_.data() + b, fate_.data() + b};
+                              report.sigma, report.tau, report.fate};
       parallel_block_3d<advance>(k, a, contact, column(CSX) + b, column(CSY) + b,
                                  column(CSZ) + b, loads);
       scatter(b, loads);
     }
-    if (advance) finish_step(b);
+    if (advance) finish_step(b, report);
   }
 }
 
