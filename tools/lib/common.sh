@@ -66,7 +66,7 @@ reason() {
     return
   fi
   local line
-  line=$(grep -m 1 -E '(^|[^a-z_])([Ee]rror|fatal|FAILED|CMake Error)[: ]|^E: ' "$log" || true)
+  line=$(grep -m 1 -E '(^|[^a-z_])([Ee]rror|fatal|CMake Error)[: ]|^E: ' "$log" || true)
   # CMake puts its sentence on the line after the place.
   case $line in
     'CMake Error'*)

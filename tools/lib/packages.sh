@@ -14,7 +14,9 @@ packages() {
 
 # os_value KEY: a value of os-release without its quotes.
 os_value() {
-  sed -n "s/^$1=//p" "$os_release" 2>/dev/null | tr -d '"' | head -n 1
+  if [ -f "$os_release" ]; then
+    sed -n "s/^$1=//p" "$os_release" | tr -d '"' | head -n 1
+  fi
 }
 
 # Anything that is not Debian 12 or newer may still build, but not by this script's hand.
