@@ -3,6 +3,7 @@
 #include "fix_bond_log.h"
 
 #include <algorithm>
+#include <cstring>
 #include <tuple>
 #include <type_traits>
 
@@ -77,9 +78,7 @@ void FixBondLog::gather() {
   });
   for (const BreakEvent &e : events) {
     gathered_[e.mode ? 1 : 0]++;
-    const double time =
-        update->get_cur_time() - static_cast<double>(update->ntimestep - e.step) * update->dt;
-    table_.row(e.step, {number_text(time), std::to_string(e.tag_lo), std::to_string(e.tag_hi),
+    table_.row(e.step, {number_text(table_.time_at(e.step)), std::to_string(e.tag_lo), std::to_string(e.tag_hi),
                         std::to_string(e.type), number_text(e.x[0]), number_text(e.x[1]),
                         number_text(e.x[2]), e.mode ? "shear" : "tension", number_text(e.sigma),
                         number_text(e.tau), number_text(e.sigma_c), number_text(e.tau_c)});
@@ -95,15 +94,28 @@ double FixBondLog::compute_vector(int n) {
   return n == 0 ? count[0] + count[1] : count[n - 1];
 }
 
+void FixBondLog::reset_timestep(bigint to, bigint from) { table_.clock.renumber(to, from); }
+
+namespace {
+struct LogState {
+  bigint gathered[2];
+  bondlab::StepClock clock;
+};
+}  // namespace
+
 // The counts go with the restart, and what is counted is in the file.
 void FixBondLog::write_restart(FILE *fp) {
   if (table_.is_open()) gather();
   if (comm->me != 0) return;
-  const int size = sizeof gathered_;
+  const LogState state = {{gathered_[0], gathered_[1]}, table_.clock};
+  const int size = sizeof state;
   fwrite(&size, sizeof size, 1, fp);
-  fwrite(gathered_, sizeof gathered_, 1, fp);
+  fwrite(&state, sizeof state, 1, fp);
 }
 
 void FixBondLog::restart(char *buf) {
-  std::copy(buf, buf + sizeof gathered_, reinterpret_cast<char *>(gathered_));
+  LogState state;
+  std::memcpy(&state, buf, sizeof state);
+  std::copy(state.gathered, state.gathered + 2, gathered_);
+  table_.clock = state.clock;
 }

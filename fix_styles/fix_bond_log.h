@@ -31,6 +31,7 @@ class FixBondLog : public Fix {
   void end_of_step();
   void post_run();
   double compute_vector(int);
+  void reset_timestep(bigint, bigint);
   void write_restart(FILE *);
   void restart(char *);
 

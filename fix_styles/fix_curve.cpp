@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
+#include "comm.h"
 #include "fix_arguments.h"
 #include "fix_platen.h"
 #include "modify.h"
@@ -15,6 +17,7 @@ using namespace FixConst;
 
 FixCurve::FixCurve(LAMMPS *lmp, int narg, char **arg)
     : Fix(lmp, narg, arg), table_(lmp, this, "bondlab-curve 1") {
+  restart_global = 1;
   FixArguments a(lmp, this, narg, arg);
   nevery = a.count("the number of steps between two rows");
   table_.path = a.word("the file name");
@@ -55,7 +58,7 @@ void FixCurve::setup(int) {
 
 void FixCurve::end_of_step() {
   modify->clearstep_compute();
-  std::vector<std::string> cells = {bondlab::number_text(update->get_cur_time())};
+  std::vector<std::string> cells = {bondlab::number_text(table_.time_at(update->ntimestep))};
   for (std::size_t k = 0; k < sources_.size(); k++) {
     const double value = sources_[k]->evaluate();
     if (!std::isfinite(value))
@@ -69,3 +72,14 @@ void FixCurve::end_of_step() {
 }
 
 void FixCurve::post_run() { table_.finish(); }
+
+void FixCurve::reset_timestep(bigint to, bigint from) { table_.clock.renumber(to, from); }
+
+void FixCurve::write_restart(FILE *fp) {
+  if (comm->me != 0) return;
+  const int size = sizeof table_.clock;
+  fwrite(&size, sizeof size, 1, fp);
+  fwrite(&table_.clock, sizeof table_.clock, 1, fp);
+}
+
+void FixCurve::restart(char *buf) { std::memcpy(&table_.clock, buf, sizeof table_.clock); }

@@ -32,6 +32,9 @@ class FixCurve : public Fix {
   void setup(int);
   void end_of_step();
   void post_run();
+  void reset_timestep(bigint, bigint);
+  void write_restart(FILE *);
+  void restart(char *);
 
  private:
   FixTable table_;

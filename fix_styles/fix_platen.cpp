@@ -56,9 +56,7 @@ void FixPlaten::stand() {
 // First use: touch the specimen, start the clock.
 void FixPlaten::place() {
   placed_ = true;
-  time_ = clock_base_ = 0.0;
-  time_step_ = clock_step_ = update->ntimestep;
-  clock_dt_ = update->dt;
+  clock_.start(0.0, update->ntimestep, update->dt);
   if (touch_) {
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < atom->nlocal; i++) {
@@ -96,23 +94,13 @@ void FixPlaten::check_nothing_is_behind() {
                                    "inside|outside, or use `touch`");
 }
 
-double FixPlaten::time_at(bigint step) const {
-  return clock_base_ + static_cast<double>(step - clock_step_) * clock_dt_;
-}
-
 double FixPlaten::speed_now(int c) const {
-  return c == servo_ ? servo_speed_ : speed_[c] * bondlab::ramp_speed(time_, ramp_);
+  return c == servo_ ? servo_speed_ : speed_[c] * bondlab::ramp_speed(clock_.now, ramp_);
 }
 
 void FixPlaten::initial_integrate(int) {
-  if (update->dt != clock_dt_) {  // the clock goes on from here at the new pace
-    clock_base_ = time_;
-    clock_step_ = time_step_;
-    clock_dt_ = update->dt;
-  }
-  time_step_ = update->ntimestep;
-  time_ = time_at(time_step_);
-  const double far = bondlab::ramp_distance(time_, ramp_);
+  clock_.advance(update->ntimestep, update->dt);
+  const double far = bondlab::ramp_distance(clock_.now, ramp_);
   double step[3];
   for (int c = 0; c < 3; c++) {
     double to = speed_[c] * far;
@@ -188,7 +176,4 @@ double FixPlaten::compute_vector(int n) {
 }
 
 // `reset_timestep` between runs: the clock keeps its time.
-void FixPlaten::reset_timestep(bigint to, bigint from) {
-  clock_step_ += to - from;
-  time_step_ += to - from;
-}
+void FixPlaten::reset_timestep(bigint to, bigint from) { clock_.renumber(to, from); }

@@ -24,6 +24,7 @@ FixStyle(platen,FixPlaten)
 #include "fix.h"
 #include "platen_geometry.h"
 #include "platen_law.h"
+#include "step_clock.h"
 
 namespace LAMMPS_NS {
 
@@ -66,14 +67,10 @@ class FixPlaten : public Fix {
   // state, replicated and restarted
   bool placed_;            // touched, and the clock started
   double touch_shift_;     // m
-  double time_;            // since placed, s
-  bigint time_step_;       // at which time_ held
-  double clock_base_;      // time at clock_step_ when the time step last changed, s
-  bigint clock_step_;
-  double clock_dt_;
+  bondlab::StepClock clock_;  // since placed
   double moved_[3];        // m
   double servo_speed_;     // m/s
-  double force_[3];        // on the platen at time_step_, N (what the servo works on)
+  double force_[3];        // on the platen, N (what the servo works on)
 
   double **history_;  // [nmax][6]: shear force (N) and normal of PlatenHistory
 
@@ -91,7 +88,6 @@ class FixPlaten : public Fix {
   void place();
   void check_nothing_is_behind();
   void stand();
-  double time_at(bigint step) const;
   double speed_now(int component) const;
   void apply(bool advance);
   void reduce();

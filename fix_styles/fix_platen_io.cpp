@@ -2,6 +2,7 @@
 // Job: the platen's arguments, per-particle arrays and restart. See fix_platen.h.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <string>
 
 #include "atom.h"
@@ -40,8 +41,7 @@ Vec3 unit(FixArguments &a, Vec3 v, const char *what) {
 FixPlaten::FixPlaten(LAMMPS *lmp, int narg, char **arg)
     : Fix(lmp, narg, arg), ratio_(1.0), friction_(0.0), speed_{0, 0, 0}, ramp_(0.0), servo_(-1),
       servo_force_(0.0), servo_gain_(0.0), servo_limit_(0.0), touch_(false), touch_along_(false),
-      along_{0, 0, 0}, placed_(false), touch_shift_(0.0), time_(0.0), time_step_(0),
-      clock_base_(0.0), clock_step_(0), clock_dt_(0.0), moved_{0, 0, 0}, servo_speed_(0.0),
+      along_{0, 0, 0}, placed_(false), touch_shift_(0.0), moved_{0, 0, 0}, servo_speed_(0.0),
       force_{0, 0, 0}, history_(NULL), total_{}, reduced_(true), step_motion_{0, 0, 0} {
   vector_flag = 1;
   size_vector = 15;
@@ -198,45 +198,39 @@ double FixPlaten::memory_usage() { return static_cast<double>(atom->nmax) * kHis
 // ---- state of the platen ----
 
 namespace {
-constexpr int kState = 15;
-}
+// What a restart file holds of a platen.
+struct PlatenState {
+  double surface;  // to recognise another platen of the same name
+  double placed, touch_shift;
+  bondlab::StepClock clock;
+  double moved[3], servo_speed, force[3];
+};
+}  // namespace
 
 void FixPlaten::write_restart(FILE *fp) {
-  const double state[kState] = {placed_ ? 1.0 : 0.0,
-                                touch_shift_,
-                                time_,
-                                static_cast<double>(time_step_),
-                                clock_base_,
-                                static_cast<double>(clock_step_),
-                                clock_dt_,
-                                moved_[0],
-                                moved_[1],
-                                moved_[2],
-                                servo_speed_,
-                                force_[0],
-                                force_[1],
-                                force_[2],
-                                static_cast<double>(surface_.surface)};
   if (comm->me != 0) return;
+  const PlatenState state = {static_cast<double>(surface_.surface),
+                             placed_ ? 1.0 : 0.0,
+                             touch_shift_,
+                             clock_,
+                             {moved_[0], moved_[1], moved_[2]},
+                             servo_speed_,
+                             {force_[0], force_[1], force_[2]}};
   const int size = sizeof state;
   fwrite(&size, sizeof size, 1, fp);
-  fwrite(state, sizeof state, 1, fp);
+  fwrite(&state, sizeof state, 1, fp);
 }
 
 void FixPlaten::restart(char *buf) {
-  double state[kState];
-  std::copy(buf, buf + sizeof state, reinterpret_cast<char *>(state));
-  if (state[14] != static_cast<double>(surface_.surface))
+  PlatenState state;
+  std::memcpy(&state, buf, sizeof state);
+  if (state.surface != static_cast<double>(surface_.surface))
     stop_with_error(lmp, this, "the restart file holds a platen of this name with another surface");
-  placed_ = state[0] != 0.0;
-  touch_shift_ = state[1];
-  time_ = state[2];
-  time_step_ = static_cast<bigint>(state[3]);
-  clock_base_ = state[4];
-  clock_step_ = static_cast<bigint>(state[5]);
-  clock_dt_ = state[6];
-  std::copy(state + 7, state + 10, moved_);
-  servo_speed_ = state[10];
-  std::copy(state + 11, state + 14, force_);
+  placed_ = state.placed != 0.0;
+  touch_shift_ = state.touch_shift;
+  clock_ = state.clock;
+  std::copy(state.moved, state.moved + 3, moved_);
+  servo_speed_ = state.servo_speed;
+  std::copy(state.force, state.force + 3, force_);
   stand();
 }

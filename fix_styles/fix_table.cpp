@@ -29,6 +29,9 @@ void FixTable::on_rank_0(Action action) {
 }
 
 void FixTable::setup() {
+  if (!clock.started()) clock.start(update->get_cur_time(), update->ntimestep, update->dt);
+  // the run about to begin may have another time step
+  clock.advance(update->ntimestep, update->dt);
   if (open_) {
     on_rank_0([this] { file_.resume(); });
     return;
@@ -57,6 +60,7 @@ void FixTable::row(bigint step, const std::vector<std::string> &cells) {
 }
 
 void FixTable::finish() {
+  clock.advance(update->ntimestep, update->dt);
   const std::string reason = FixStopPeak::reason_of_end(lmp);
   if (open_ && !reason.empty()) on_rank_0([&] { file_.complete(reason); });
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "pointers.h"
+#include "step_clock.h"
 #include "table_file.h"
 
 namespace LAMMPS_NS {
@@ -26,10 +27,12 @@ class FixTable : protected Pointers {
   std::string path;
   bool append;  // go on with the file of the run that wrote the restart
   std::vector<std::string> names, units;
+  bondlab::StepClock clock;  // the time written; a fix that uses it restarts it
 
   void setup();          // all ranks
   bool is_open() const { return open_; }
   bigint last_step() const { return last_step_; }  // of the rows, on all ranks; -1: none
+  double time_at(bigint step) const { return clock.at(step); }  // of the present run, s
   void row(bigint step, const std::vector<std::string> &cells);
   void finish();  // all ranks
 
