@@ -211,8 +211,7 @@ class Bench {
   struct Columns {
     using Lane = std::array<double, kBlock>;
     alignas(64) Lane rest, reference, radius, stiffness, ratio, beta, tan_phi, sigma_c, tau_c;
-    alignas(64) Lane kn, ks, mu, alive, fsx, fsy, fsz, mbx, mby, mbz, mt, csx, csy, csz, sigma, tau;
-    std::array<unsigned char, kBlock> fate;
+    alignas(64) Lane kn, ks, mu, alive, fsx, fsy, fsz, mbx, mby, mbz, mt, csx, csy, csz, sigma, tau, fate;
   };
 
   PairRow &row(std::size_t k) { return pairs[order_[std::min(k, order_.size() - 1)]]; }
@@ -239,7 +238,7 @@ class Bench {
       p.fs = {c.fsx[b], c.fsy[b], c.fsz[b]};
       p.mb = {c.mbx[b], c.mby[b], c.mbz[b]};
       p.cs = {c.csx[b], c.csy[b], c.csz[b]};
-      if (p.bonded) p.fate = static_cast<BondFate>(c.fate[b]);
+      if (p.bonded) p.fate = static_cast<BondFate>(static_cast<int>(c.fate[b]));
     }
   }
 

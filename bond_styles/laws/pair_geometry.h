@@ -6,12 +6,20 @@
 // Method. A transverse vector v (shear force, bending moment) stored with the old direction e0 is
 // carried to the new direction e by the smallest rotation that takes e0 to e,
 //     v' = v - (v.e) (e0 + e) / (1 + e0.e),
-// and then spun about e by the mean spin of the pair (a Cayley step, so its length is kept to
-// rounding). Projecting on the new plane without this loses length at every step, which shows as a
-// slow relaxation of a bond that merely rotates (seen in public codes, PHYSICS.md 3.1).
+// and then spun about e by the mean spin of the pair (as a fraction of tan(psi/2), so its length is
+// kept to rounding). Projecting on the new plane without this loses length at every step, which
+// shows as a slow relaxation of a bond that merely rotates (seen in public codes, PHYSICS.md 3.1).
 //
-// The shear displacement is the distance times the angle by which the bond direction turned beyond
-// what the particles turned: zero for any rigid motion up to the fifth order of the angle per step.
+// The rotation of the pair over a step is a spin psi about the bond between two halves of that
+// smallest rotation (by theta about n = e0 x e), with m half-way between e0 and e. Its rotation
+// vector is then, without approximation,
+//     s = S/sin(S/2) [ sin(psi/2) m + sin(theta/2) cos(psi/2) n ],   cos(S/2) = cos(theta/2) cos(psi/2)
+// so a rigid motion has s.m = psi (1 + theta^2/24) and s.n = theta (1 - psi^2/12), to the fifth order
+// of the angles of a step, and no other component. What the particles turned beyond that, times the
+// distance, is the shear displacement: zero for any rigid motion, also when the bond spins and
+// tumbles at once (with e in place of m it is psi theta / 2 a step, which adds up over turns to a
+// shear of first order in the step). Increments are taken half-way and carried on to e, so that
+// strain during rotation is integrated to second order.
 //
 // Source: geometry only. The old direction is x_j - x_i minus its change over the step, so nothing
 // about directions is stored. Units: m, rad. Limits: the bond turns by less than about 1 rad a step.
@@ -36,39 +44,50 @@ inline Vec3 cross(Vec3 a, Vec3 b) {
 // asin(s)/s to s^4: exact to 1e-9 at a turn of 0.04 rad, far beyond any usable time step.
 inline double angle_over_sine(double s2) { return 1.0 + s2 * (1.0 / 6.0 + s2 * (3.0 / 40.0)); }
 
-// One pair over one step in 3D.
+// One pair over one step in 3D. Increments are given in the frame at its end.
 struct PairStep3 {
   double distance;  // now, m
   Vec3 e;           // unit vector i -> j now
-  Vec3 e0;          // and one step ago
-  double spin;      // rotation about e over the step, rad
+  Vec3 both;        // e0 + e, e0 that of one step ago
   Vec3 shear;       // displacement of j relative to i across e over the step, m
-  double twist;     // rotation of j relative to i about e over the step, rad
+  double twist;     // rotation of j relative to i about the bond over the step, rad
   Vec3 bend;        // rotation of j relative to i across e over the step, rad
   double carry;     // 1 / (1 + e0.e)
-  double cos_spin, sin_spin;
+  double cos_spin, sin_spin;  // of psi
 
   PairStep3(Vec3 d, Vec3 u, Vec3 s, Vec3 q) {
     const Vec3 d0 = d - u;
     distance = std::sqrt(dot(d, d));
     const double distance0 = std::sqrt(dot(d0, d0));
     e = (1.0 / distance) * d;
-    e0 = (1.0 / distance0) * d0;
+    const Vec3 e0 = (1.0 / distance0) * d0;
+    both = e0 + e;
     carry = 1.0 / (1.0 + dot(e0, e));
-    spin = dot(s, e);
-    const double h = 0.5 * spin, norm = 1.0 / (1.0 + h * h);
+    const Vec3 turn = cross(e0, e);
+    const double sine2 = dot(turn, turn);
+    const Vec3 m = std::sqrt(0.5 * carry) * both;  // |both|^2 = 2 (1 + e0.e)
+    const double along = dot(s, m);
+    const double spin = along * (1.0 - sine2 * (1.0 / 24.0)), spin2 = spin * spin;
+
+    const double h = 0.5 * spin * (1.0 + spin2 * (1.0 / 12.0));  // tan(psi/2)
+    const double norm = 1.0 / (1.0 + h * h);
     cos_spin = (1.0 - h * h) * norm;
     sin_spin = 2.0 * h * norm;
-    const Vec3 turn = cross(e0, e);
-    const Vec3 angle = angle_over_sine(dot(turn, turn)) * turn;
-    shear = (0.5 * (distance + distance0)) * cross(angle - s, e);
-    twist = dot(q, e);
-    bend = q - twist * e;
+
+    const double angle = angle_over_sine(sine2) * (1.0 - spin2 * (1.0 / 12.0));
+    const Vec3 beyond = cross(angle * turn - (s - along * m), e);
+    shear = (0.5 * (distance + distance0)) * half_spun(beyond, spin);
+    twist = dot(q, m);
+    const Vec3 across = q - twist * m;
+    bend = half_spun(across - dot(across, e) * e, spin);
   }
+
+  // A vector across e, spun about e by half of psi.
+  Vec3 half_spun(Vec3 v, double spin) const { return v + (0.5 * spin) * cross(e, v); }
 
   Vec3 carried(Vec3 v) const {
     const double along = dot(v, e) * carry;
-    v = v - along * (e0 + e);
+    v = v - along * both;
     const Vec3 w = cross(e, v);
     return cos_spin * v + sin_spin * w;
   }

@@ -67,16 +67,21 @@ void BondParallel::coeff(int narg, char **arg) {
       if (degrees >= 90.0) bad("bond_coeff for bond_style parallel: friction_angle must be below 90 degrees");
       t.law.tan_phi = std::tan(degrees * kPi / 180.0);
       k += 2;
-    } else if (!strcmp(arg[k], "normal")) {
-      t.sigma.scatter = t.tau.scatter = Scatter::normal;
-      t.sigma.spread = value(k + 1, "normal: standard deviation of sigma_c (Pa)", false);
-      t.tau.spread = value(k + 2, "normal: standard deviation of tau_c (Pa)", false);
-      k += 3;
-    } else if (!strcmp(arg[k], "weibull")) {
-      t.sigma.scatter = t.tau.scatter = Scatter::weibull;
-      t.sigma.spread = value(k + 1, "weibull: modulus of sigma_c", true);
-      t.tau.spread = value(k + 2, "weibull: modulus of tau_c", true);
-      k += 3;
+    } else if (!strcmp(arg[k], "scatter")) {
+      const std::string kind = k + 1 < narg ? arg[k + 1] : "";
+      if (kind != "none" && kind != "normal" && kind != "weibull")
+        bad("bond_coeff for bond_style parallel: scatter is '" + kind +
+            "', allowed are none, normal (standard deviations over means) and weibull (moduli)");
+      const bool weibull = kind == "weibull";
+      t.sigma.spread = value(k + 2, "scatter of sigma_c", weibull);
+      t.tau.spread = value(k + 3, "scatter of tau_c", weibull);
+      t.sigma.scatter = t.tau.scatter =
+          weibull ? Scatter::weibull : (kind == "normal" ? Scatter::normal : Scatter::none);
+      if (kind == "normal") {
+        t.sigma.spread *= t.sigma.mean;
+        t.tau.spread *= t.tau.mean;
+      }
+      k += 4;
     } else if (!strcmp(arg[k], "seed")) {
       const double seed = value(k + 1, "seed", false);
       if (seed != std::floor(seed)) bad(std::string("bond_coeff for bond_style parallel: seed is ") + arg[k + 1] + ", it must be a whole number");
@@ -84,7 +89,7 @@ void BondParallel::coeff(int narg, char **arg) {
       k += 2;
     } else {
       bad(std::string("bond_coeff for bond_style parallel: unknown keyword '") + arg[k] +
-          "', allowed are lambda, beta, friction_angle, normal, weibull, seed");
+          "', allowed are lambda, beta, friction_angle, scatter, seed");
     }
   }
 
