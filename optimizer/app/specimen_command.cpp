@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Job: `bondlab specimen rectangle|disc|cylinder` makes a packing and prints its statistics;
+//   `bondlab specimen check` looks whether a specimen file can be used.
+// Units: lengths with a unit ("50 mm") or plain in m; statistics are printed in mm.
+// Failure: UserError for bad sizes, files that can't be written or read, packings that can't be
+//   tested.
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "app/commands.h"
+#include "base/units.h"
+#include "base/user_error.h"
+#include "specimen/check_packing.h"
+#include "specimen/data_file.h"
+#include "specimen/size_distribution.h"
+#include "specimen/specimen.h"
+
+namespace bondlab {
+
+namespace {
+
+// The options as typed; quantities are parsed when the command runs, so that their errors are
+// UserErrors like all others.
+struct Options {
+  std::string width, height, diameter, r_min, density = "2600 kg/m3", from, out;
+  double ratio = 1.66, overlap = SpecimenRequest().overlap;
+  std::string sizes = "uniform";
+  std::uint64_t seed = 1;
+};
+
+double quantity(const char *option, const std::string &text, const char *unit) {
+  if (text.empty()) return 0;
+  try {
+    const Quantity parts = split_quantity(text);
+    return parts.unit.empty() ? parts.number : parse_quantity(text, unit);
+  } catch (const UserError &error) {
+    throw UserError(std::string(option) + ": " + error.text());
+  }
+}
+
+SpecimenRequest request_from(ContainerShape shape, const Options &options) {
+  SpecimenRequest request;
+  request.shape = shape;
+  request.width = quantity("--width", options.width, "m");
+  request.height = quantity("--height", options.height, "m");
+  request.diameter = quantity("--diameter", options.diameter, "m");
+  request.r_min = quantity("--r-min", options.r_min, "m");
+  request.density = quantity("--density", options.density, "kg/m3");
+  request.r_ratio = options.ratio;
+  request.overlap = options.overlap;
+  request.sizes = options.sizes;
+  request.seed = options.seed;
+  return request;
+}
+
+void print_statistics(const Specimen &specimen) {
+  const SpecimenStatistics &s = specimen.statistics;
+  const bool flat = specimen.request.container().dimension() == 2;
+  const auto line = [](const char *name, const std::string &value) {
+    fmt::print("{:<22}{}\n", name, value);
+  };
+  line("particles", fmt::format("{} {}", s.count, flat ? "discs" : "spheres"));
+  line("radii", fmt::format("{:.4g} to {:.4g} mm, mean {:.4g} mm", 1e3 * s.r_min, 1e3 * s.r_max,
+                            1e3 * s.r_mean));
+  line("porosity",
+       fmt::format("{:.4f}, inside the wall layer {:.4f}", s.porosity, s.porosity_inner));
+  std::string coordination;
+  for (std::size_t g = 0; g < coordination_gaps.size(); ++g)
+    coordination +=
+        fmt::format("{}{:.3f} at {:g}", g > 0 ? ", " : "", s.coordination[g], coordination_gaps[g]);
+  line("bonds per particle", coordination + " mean radii of gap");
+  line("overlap", fmt::format("mean {:.2g}, largest {:.2g} of the radius; over the walls {:.2g}",
+                              s.mean_overlap, s.max_overlap, s.stick_out));
+  line("isotropy", fmt::format("eigenvalue ratio of fabric {:.3f}, of stress {:.3f}",
+                               s.fabric_ratio, s.stress_ratio));
+  line("locked-in stress", fmt::format("{:.2g} of the contact modulus E_c", s.stress_over_modulus));
+  line("floaters", fmt::format("{} left, {} grown until held", s.floaters, s.floaters_grown));
+  if (specimen.request.shape != ContainerShape::disc)
+    line("touching the ends", fmt::format("{} bottom, {} top", s.on_bottom, s.on_top));
+}
+
+// A line on the terminal while a packing is made; nothing in a log.
+void show_progress(const SpecimenProgress &progress) {
+  if (!::isatty(STDERR_FILENO)) return;
+  fmt::print(stderr, "\r{:<24}{:3.0f} %", progress.stage, 100 * progress.fraction);
+  if (progress.fraction >= 1) fmt::print(stderr, "\r{:30}\r", "");
+  std::fflush(stderr);
+}
+
+void make(ContainerShape shape, const Options &options) {
+  const std::filesystem::path out = options.out;
+  // Before the work, not after it.
+  const std::filesystem::path folder = out.has_parent_path() ? out.parent_path() : ".";
+  if (!std::filesystem::is_directory(folder))
+    throw UserError("--out: there is no directory " + folder.string());
+  if (std::filesystem::is_directory(out))
+    throw UserError("--out: " + out.string() + " is a directory (allowed: a file)");
+  SpecimenRequest request = request_from(shape, options);
+  Specimen specimen;
+  if (options.from.empty()) {
+    if (options.r_min.empty())
+      throw UserError("--r-min is missing (the smallest radius, such as \"0.66 mm\")");
+    specimen = make_specimen(request, show_progress);
+  } else {
+    specimen = read_xyzr(options.from, request);
+  }
+  check_packing(specimen);
+  write_data_file(specimen, out);
+  print_statistics(specimen);
+}
+
+void add_shape(CLI::App &specimen, ContainerShape shape) {
+  const char *const about[] = {"discs in a rectangle of width x (across) and height y (loaded)",
+                               "discs in a circle, loaded along y",
+                               "spheres in a cylinder with axis z"};
+  CLI::App *command = specimen.add_subcommand(shape_name(shape), about[static_cast<int>(shape)]);
+  const auto options = std::make_shared<Options>();
+  if (shape == ContainerShape::rectangle)
+    command->add_option("--width", options->width, "width, such as \"50 mm\" (plain numbers: m)")
+        ->required();
+  else
+    command
+        ->add_option("--diameter", options->diameter,
+                     "diameter, such as \"50 mm\" (plain numbers: m)")
+        ->required();
+  if (shape != ContainerShape::disc)
+    command->add_option("--height", options->height, "height")->required();
+  command->add_option("--r-min", options->r_min, "smallest particle radius");
+  command->add_option("--ratio", options->ratio, "largest over smallest radius")
+      ->capture_default_str();
+  command
+      ->add_option("--sizes", options->sizes,
+                   "distribution of radii: " + join(size_distribution_names()))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "another seed is another packing")
+      ->capture_default_str();
+  command->add_option("--density", options->density, "density of the particles")
+      ->capture_default_str();
+  command
+      ->add_option("--overlap", options->overlap,
+                   "locked-in stress as mean overlap over mean radius")
+      ->capture_default_str();
+  command->add_option("--from", options->from,
+                      "take the particles from a text file of x y z r in m");
+  command
+      ->add_option("--out", options->out,
+                   "specimen file to write; its record NAME.json goes beside it")
+      ->required();
+  command->callback([shape, options] { make(shape, *options); });
+}
+
+}  // namespace
+
+void add_specimen(CLI::App &app) {
+  CLI::App *specimen =
+      app.add_subcommand("specimen", "make a packing of discs or spheres, or check one");
+  specimen->require_subcommand(1);
+  for (const ContainerShape shape :
+       {ContainerShape::rectangle, ContainerShape::disc, ContainerShape::cylinder})
+    add_shape(*specimen, shape);
+
+  CLI::App *check = specimen->add_subcommand("check", "look whether a specimen file can be tested");
+  const auto file = std::make_shared<std::string>(), gap = std::make_shared<std::string>();
+  check->add_option("file", *file, "specimen file")->required();
+  check->add_option("--gap", *gap,
+                    "gap within which bonds will be installed (default: 0.05 mean radii)");
+  check->callback([file, gap] {
+    PackingLimits limits;
+    limits.gap = quantity("--gap", *gap, "m");
+    const PackingFile packing = read_packing_file(*file);
+    check_packing(packing, limits);
+    if (packing.made_from)
+      print_statistics(read_data_file(*file));
+    else
+      fmt::print("{:<22}{}\n", "particles", packing.rows.size());
+  });
+}
+
+}  // namespace bondlab

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Job: make a seeded, dense, isotropic, nearly stress-free packing of discs or spheres in a
+//   rectangle, disc or cylinder.
+// Method: the material genesis of Potyondy & Cundall 2004 (Int. J. Rock Mech. Min. Sci. 41,
+//   1329-1364, appendix): random places, radii scaled to a low isotropic stress between rigid
+//   frictionless walls, floaters grown until they are held. Differences: equilibrium by energy
+//   minimisation (relax.h) instead of damped dynamics, and the stress is reached from above, from
+//   a compressed state, which leaves the density even over the specimen. specimen.md has the
+//   figures.
+// Units: SI (m, kg/m3). The generator itself works in mean radii.
+// Failure: UserErrors from check_request() for a request that makes no sense; UserError when no
+//   equilibrium is found.
+// Limits: the count follows from the container and the sizes; to reach the stress the radii of a
+//   packing are all scaled by one factor within about 0.5 % of 1, and a floater may grow up to 15 %
+//   beyond r_max. Statistics give the radii as they are.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "specimen/container.h"
+#include "specimen/statistics.h"
+
+namespace bondlab {
+
+struct SpecimenRequest {
+  ContainerShape shape = ContainerShape::rectangle;
+  double width = 0;  // m; rectangle, along x
+  double height =
+      0;  // m; rectangle along y; cylinder along its axis z (a 3D Brazilian disc: its length)
+  double diameter = 0;            // m; disc, cylinder
+  double r_min = 0;               // m; smallest radius
+  double r_ratio = 1.66;          // largest over smallest radius
+  std::string sizes = "uniform";  // a name of size_distribution_names()
+  std::uint64_t seed = 1;
+  double density =
+      2600;  // kg/m3, of the particles; written to the file, without influence on the packing
+  double overlap = 2e-5;  // mean overlap of contacts over mean radius: the locked-in stress, about
+                          // 2e-5 of the modulus E_c
+
+  Container container() const { return Container(shape, width, height, diameter); }
+};
+
+struct Specimen {
+  SpecimenRequest request;
+  std::vector<Particle> particles;  // m; particle i has the permanent id i + 1; space-filling order
+  std::vector<double> densities;    // kg/m3
+  SpecimenStatistics statistics;
+};
+
+struct SpecimenProgress {
+  std::string stage;    // what is being done, in words
+  double fraction = 0;  // 0 .. 1, rough
+};
+using SpecimenProgressCallback = std::function<void(const SpecimenProgress &)>;
+
+// Throws UserErrors with everything that is wrong with a request.
+void check_request(const SpecimenRequest &request);
+
+// The same request gives the same bytes on every machine.
+Specimen make_specimen(const SpecimenRequest &request,
+                       const SpecimenProgressCallback &progress = {});
+
+// All that the packing depends on, as text with the generator's version; and its hash, 16
+// hexadecimal digits.
+std::string canonical_text(const SpecimenRequest &request);
+std::string specimen_key(const SpecimenRequest &request);
+
+}  // namespace bondlab
