@@ -30,8 +30,8 @@ namespace bondlab {
 
 class ExactSum {
  public:
-  static constexpr int limbs = 68;          // 32 bits each: 2098 bits of double and 63 of headroom
-  static constexpr int words = limbs + 2;   // what is sent between ranks
+  static constexpr int limbs = 68;         // 32 bits each: 2098 bits of double and 63 of headroom
+  static constexpr int words = limbs + 2;  // what is sent between ranks
 
   void clear() { word_.fill(0); }
 
@@ -59,7 +59,7 @@ class ExactSum {
     if (++word_[pending] == max_pending) carry();
   }
 
-  void add(const ExactSum& other) {
+  void add(const ExactSum &other) {
     ExactSum o = other;
     o.carry();
     carry();
@@ -68,7 +68,7 @@ class ExactSum {
 
   // Before the words of several sums are added up (2^29 of them at most), carries must be moved on.
   void prepare_to_send() { carry(); }
-  std::int64_t* data() { return word_.data(); }
+  std::int64_t *data() { return word_.data(); }
 
   double value() const {
     if (word_[invalid]) return std::numeric_limits<double>::quiet_NaN();
@@ -134,11 +134,11 @@ class ExactSums {
  public:
   static constexpr std::size_t size = N;
   void clear() {
-    for (ExactSum& s : sum_) s.clear();
+    for (ExactSum &s : sum_) s.clear();
   }
   void add(std::size_t i, double x) { sum_[i].add(x); }
   double value(std::size_t i) const { return sum_[i].value(); }
-  ExactSum* data() { return sum_.data(); }
+  ExactSum *data() { return sum_.data(); }
 
  private:
   std::array<ExactSum, N> sum_{};

@@ -13,7 +13,7 @@
 
 namespace bondlab {
 
-inline void sum_over_ranks(ExactSum* sums, std::size_t count, MPI_Comm world) {
+inline void sum_over_ranks(ExactSum *sums, std::size_t count, MPI_Comm world) {
   static_assert(sizeof(ExactSum) == ExactSum::words * sizeof(std::int64_t));
   for (std::size_t i = 0; i < count; ++i) sums[i].prepare_to_send();
   MPI_Allreduce(MPI_IN_PLACE, sums->data(), static_cast<int>(count * ExactSum::words), MPI_INT64_T,
@@ -21,7 +21,7 @@ inline void sum_over_ranks(ExactSum* sums, std::size_t count, MPI_Comm world) {
 }
 
 template <std::size_t N>
-void sum_over_ranks(ExactSums<N>& sums, MPI_Comm world) {
+void sum_over_ranks(ExactSums<N> &sums, MPI_Comm world) {
   sum_over_ranks(sums.data(), N, world);
 }
 

@@ -17,7 +17,7 @@ namespace {
 using bondlab::ExactSum;
 using bondlab::ExactSums;
 
-double sum_of(const std::vector<double>& numbers) {
+double sum_of(const std::vector<double> &numbers) {
   ExactSum s;
   for (double x : numbers) s.add(x);
   return s.value();
@@ -43,7 +43,7 @@ TEST(ExactSum, OrderDoesNotMatter) {
   std::uniform_real_distribution<double> mantissa(-1.0, 1.0);
   std::uniform_int_distribution<int> exponent(-300, 300);
   std::vector<double> numbers(2000);
-  for (double& x : numbers) x = std::ldexp(mantissa(random), exponent(random));
+  for (double &x : numbers) x = std::ldexp(mantissa(random), exponent(random));
   const double reference = sum_of(numbers);
   for (int k = 0; k < 50; ++k) {
     std::shuffle(numbers.begin(), numbers.end(), random);
@@ -55,13 +55,13 @@ TEST(ExactSum, PartsAddUpToTheWhole) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal(0.0, 1e5);
   std::vector<double> numbers(1003);
-  for (double& x : numbers) x = normal(random);
+  for (double &x : numbers) x = normal(random);
   const double reference = sum_of(numbers);
   for (int parts : {2, 3, 4, 64}) {
     std::vector<ExactSum> part(parts);
     for (std::size_t i = 0; i < numbers.size(); ++i) part[(i * 7) % parts].add(numbers[i]);
     ExactSum whole;
-    for (const ExactSum& p : part) whole.add(p);
+    for (const ExactSum &p : part) whole.add(p);
     EXPECT_TRUE(same_bits(whole.value(), reference)) << parts;
     // What MPI_SUM does with the words.
     ExactSum words;
@@ -103,13 +103,13 @@ TEST(ExactSum, RoundsToNearestTiesToEven) {
 
 TEST(ExactSum, AgreesWithQuadPrecisionWhereThatIsExact) {
   std::mt19937_64 random(4);
-  std::uniform_int_distribution<std::int64_t> mantissa(-(std::int64_t(1) << 52),
-                                                       std::int64_t(1) << 52);
+  std::uniform_int_distribution<std::int64_t> mantissa(-(std::int64_t(1) << 52), std::int64_t(1)
+                                                                                     << 52);
   std::uniform_int_distribution<int> exponent(-20, 20);  // 53 + 40 + 10 bits < 113
   for (int round = 0; round < 500; ++round) {
     std::vector<double> numbers(1 + round);
     __float128 reference = 0;
-    for (double& x : numbers) {
+    for (double &x : numbers) {
       x = std::ldexp(static_cast<double>(mantissa(random)), exponent(random));
       reference += x;
     }

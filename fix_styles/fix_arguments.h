@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later
 
-   Job: read the arguments of a fix one by one and say clearly what is wrong with one: name and ID of
-   the fix, the value given, the values allowed.
+   Job: read the arguments of a fix one by one and say clearly what is wrong with one: name and ID
+   of the fix, the value given, the values allowed.
 
    Every rank reads the same arguments and so stops at the same error. Units: as the caller says in
    `what`, for instance "modulus (Pa)". Failure: Error::fix_error, exit status 1. */

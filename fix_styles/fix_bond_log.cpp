@@ -18,7 +18,9 @@ using namespace FixConst;
 using bondlab::number_text;
 
 FixBondLog::FixBondLog(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), table_(lmp, this, "bondlab-broken-bonds 1"), bonds_(NULL),
+    : Fix(lmp, narg, arg),
+      table_(lmp, this, "bondlab-broken-bonds 1"),
+      bonds_(NULL),
       gathered_{0, 0} {
   vector_flag = 1;
   size_vector = 3;
@@ -31,7 +33,7 @@ FixBondLog::FixBondLog(LAMMPS *lmp, int narg, char **arg)
   table_.path = a.word("the file name");
   table_.append = a.next_is("append");
   if (a.more()) a.unknown_keyword("append");
-  table_.names = {"step", "time", "id1",  "id2",   "type", "x",       "y",
+  table_.names = {"step", "time", "id1",   "id2", "type",    "x",    "y",
                   "z",    "mode", "sigma", "tau", "sigma_c", "tau_c"};
   table_.units = {"1", "s", "1", "1", "1", "m", "m", "m", "1", "Pa", "Pa", "Pa", "Pa"};
 }
@@ -41,9 +43,10 @@ int FixBondLog::setmask() { return END_OF_STEP | POST_RUN; }
 void FixBondLog::init() {
   bonds_ = dynamic_cast<BondBPM *>(force->bond);
   if (!bonds_)
-    stop_with_error(lmp, this, std::string("needs a bond style of bonded particles, like "
-                                           "`bond_style parallel`; this run has '") +
-                                   (force->bond_style ? force->bond_style : "none") + "'");
+    stop_with_error(lmp, this,
+                    std::string("needs a bond style of bonded particles, like "
+                                "`bond_style parallel`; this run has '") +
+                        (force->bond_style ? force->bond_style : "none") + "'");
 }
 
 void FixBondLog::setup(int) {
@@ -78,10 +81,11 @@ void FixBondLog::gather() {
   });
   for (const BreakEvent &e : events) {
     gathered_[e.mode ? 1 : 0]++;
-    table_.row(e.step, {number_text(table_.time_at(e.step)), std::to_string(e.tag_lo), std::to_string(e.tag_hi),
-                        std::to_string(e.type), number_text(e.x[0]), number_text(e.x[1]),
-                        number_text(e.x[2]), e.mode ? "shear" : "tension", number_text(e.sigma),
-                        number_text(e.tau), number_text(e.sigma_c), number_text(e.tau_c)});
+    table_.row(e.step, {number_text(table_.time_at(e.step)), std::to_string(e.tag_lo),
+                        std::to_string(e.tag_hi), std::to_string(e.type), number_text(e.x[0]),
+                        number_text(e.x[1]), number_text(e.x[2]), e.mode ? "shear" : "tension",
+                        number_text(e.sigma), number_text(e.tau), number_text(e.sigma_c),
+                        number_text(e.tau_c)});
   }
 }
 

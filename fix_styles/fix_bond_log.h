@@ -10,7 +10,9 @@
 
 #ifdef FIX_CLASS
 
+// clang-format off
 FixStyle(bond/log,FixBondLog)
+// clang-format on
 
 #else
 

@@ -46,8 +46,8 @@ void FixCurve::init() {
   // The first row is written while the run is set up, when later fixes have not been.
   for (int i = modify->find_fix(id) + 1; i < modify->nfix; i++)
     if (dynamic_cast<FixPlaten *>(modify->fix[i]))
-      stop_with_error(lmp, this, std::string("must come after fix platen (id ") +
-                                     modify->fix[i]->id + ")");
+      stop_with_error(lmp, this,
+                      std::string("must come after fix platen (id ") + modify->fix[i]->id + ")");
 }
 
 void FixCurve::setup(int) {
@@ -62,9 +62,10 @@ void FixCurve::end_of_step() {
   for (std::size_t k = 0; k < sources_.size(); k++) {
     const double value = sources_[k]->evaluate();
     if (!std::isfinite(value))
-      stop_with_error(lmp, this, "column '" + table_.names[k + 2] + "' (" + sources_[k]->text() +
-                                     ") is " + bondlab::number_text(value) + " at step " +
-                                     std::to_string(update->ntimestep));
+      stop_with_error(lmp, this,
+                      "column '" + table_.names[k + 2] + "' (" + sources_[k]->text() + ") is " +
+                          bondlab::number_text(value) + " at step " +
+                          std::to_string(update->ntimestep));
     cells.push_back(bondlab::number_text(value));
   }
   modify->addstep_compute(update->ntimestep + nevery);

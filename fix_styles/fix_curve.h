@@ -8,7 +8,9 @@
 
 #ifdef FIX_CLASS
 
+// clang-format off
 FixStyle(curve,FixCurve)
+// clang-format on
 
 #else
 

@@ -7,7 +7,9 @@
 
 #ifdef FIX_CLASS
 
+// clang-format off
 FixStyle(damp/local,FixDampLocal)
+// clang-format on
 
 #else
 

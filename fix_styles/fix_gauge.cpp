@@ -14,8 +14,8 @@
 #include "update.h"
 
 using namespace LAMMPS_NS;
-using bondlab::Extent;
 using bondlab::ExactSums;
+using bondlab::Extent;
 using bondlab::Gauge;
 using bondlab::GaugeSettings;
 
@@ -27,8 +27,12 @@ void over_ranks(Extent &e, MPI_Comm world) {
 }  // namespace
 
 FixGauge::FixGauge(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), style_(AtomVecBondedSphere::of(lmp, "fix gauge")), extent_given_(false),
-      placed_(false), measured_step_(-1), strain_{} {
+    : Fix(lmp, narg, arg),
+      style_(AtomVecBondedSphere::of(lmp, "fix gauge")),
+      extent_given_(false),
+      placed_(false),
+      measured_step_(-1),
+      strain_{} {
   vector_flag = 1;
   size_vector = 5;
   global_freq = 1;
@@ -53,8 +57,7 @@ void FixGauge::read_arguments(int narg, char **arg) {
     } else if (a.next_is("thickness")) {
       s.thickness = a.number("thickness of a layer (m)", FixArguments::POSITIVE);
     } else if (a.next_is("lateral")) {
-      s.across = a.choice("the lateral direction",
-                          domain->dimension == 2 ? "x|y" : "x|y|z|radial");
+      s.across = a.choice("the lateral direction", domain->dimension == 2 ? "x|y" : "x|y|z|radial");
       s.lateral = s.across == 3 ? GaugeSettings::shell : GaugeSettings::strips;
       if (!a.next_is("strip")) a.fail("lateral needs `strip T` (m) after the direction");
       s.strip = a.number("depth of the strip (m)", FixArguments::POSITIVE);
@@ -100,15 +103,17 @@ void FixGauge::place() {
   }
   if (settings_.lateral != GaugeSettings::none) place_flanks();
   measure();
-  const char *where = strain_.top == 0.0 ? "upper layer" : strain_.bottom == 0.0 ? "lower layer" : NULL;
+  const char *where = strain_.top == 0.0      ? "upper layer"
+                      : strain_.bottom == 0.0 ? "lower layer"
+                                              : NULL;
   if (settings_.lateral != GaugeSettings::none && strain_.flank == 0.0) where = "flanks";
   if (settings_.lateral == GaugeSettings::strips && !(strain_.lateral == strain_.lateral))
     where = "flanks";
   if (where)
-    stop_with_error(lmp, this, std::string("no particle of the group is in the ") + where +
-                                   "; the specimen reaches from " + std::to_string(frame_.lo) +
-                                   " to " + std::to_string(frame_.hi) +
-                                   " m; make the layer or strip thicker");
+    stop_with_error(lmp, this,
+                    std::string("no particle of the group is in the ") + where +
+                        "; the specimen reaches from " + std::to_string(frame_.lo) + " to " +
+                        std::to_string(frame_.hi) + " m; make the layer or strip thicker");
 }
 
 void FixGauge::place_flanks() {

@@ -9,7 +9,9 @@
 
 #ifdef FIX_CLASS
 
+// clang-format off
 FixStyle(gauge,FixGauge)
+// clang-format on
 
 #else
 

@@ -33,8 +33,9 @@ int FixPlaten::setmask() { return INITIAL_INTEGRATE | POST_FORCE; }
 
 void FixPlaten::init() {
   if (strncmp(update->integrate_style, "verlet", 6) != 0)
-    stop_with_error(lmp, this, std::string("needs `run_style verlet`, this run has '") +
-                                   update->integrate_style + "'");
+    stop_with_error(
+        lmp, this,
+        std::string("needs `run_style verlet`, this run has '") + update->integrate_style + "'");
 }
 
 void FixPlaten::setup(int) {
@@ -74,8 +75,9 @@ void FixPlaten::place() {
   }
   stand();
   if (now_.surface != bondlab::Surface::plane && !(now_.radius > 0.0))
-    stop_with_error(lmp, this, "keyword touch: the radius would have to be " +
-                                   std::to_string(now_.radius) + " m to touch the particles");
+    stop_with_error(lmp, this,
+                    "keyword touch: the radius would have to be " + std::to_string(now_.radius) +
+                        " m to touch the particles");
   check_nothing_is_behind();
 }
 
@@ -89,9 +91,10 @@ void FixPlaten::check_nothing_is_behind() {
     }
   MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_INT, MPI_MAX, world);
   if (worst)
-    stop_with_error(lmp, this, "the centre of particle " + std::to_string(worst) +
-                                   " is behind the platen's surface; check its place, its normal or "
-                                   "inside|outside, or use `touch`");
+    stop_with_error(lmp, this,
+                    "the centre of particle " + std::to_string(worst) +
+                        " is behind the platen's surface; check its place, its normal or "
+                        "inside|outside, or use `touch`");
 }
 
 double FixPlaten::speed_now(int c) const {

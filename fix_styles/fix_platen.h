@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later
 
    Job: `fix platen`: a rigid, analytic loading platen (plane, cylinder or sphere) that moves at a
-   speed reached by a smooth ramp, or holds a force by a servo, and reports force, torque and motion.
+   speed reached by a smooth ramp, or holds a force by a servo, and reports force, torque and
+   motion.
 
    Geometry, contact law and motion are in platen_geometry.h, platen_law.h and platen_motion.h; here
    they meet the engine. The platen stands on every rank alike; its force is an exact sum, so all
@@ -13,7 +14,9 @@
 
 #ifdef FIX_CLASS
 
+// clang-format off
 FixStyle(platen,FixPlaten)
+// clang-format on
 
 #else
 
@@ -65,12 +68,12 @@ class FixPlaten : public Fix {
   bondlab::Vec3 along_;  // unit; direction of the approach
 
   // state, replicated and restarted
-  bool placed_;            // touched, and the clock started
-  double touch_shift_;     // m
+  bool placed_;               // touched, and the clock started
+  double touch_shift_;        // m
   bondlab::StepClock clock_;  // since placed
-  double moved_[3];        // m
-  double servo_speed_;     // m/s
-  double force_[3];        // on the platen, N (what the servo works on)
+  double moved_[3];           // m
+  double servo_speed_;        // m/s
+  double force_[3];           // on the platen, N (what the servo works on)
 
   double **history_;  // [nmax][6]: shear force (N) and normal of PlatenHistory
 

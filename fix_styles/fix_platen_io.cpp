@@ -39,10 +39,27 @@ Vec3 unit(FixArguments &a, Vec3 v, const char *what) {
 }  // namespace
 
 FixPlaten::FixPlaten(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), ratio_(1.0), friction_(0.0), speed_{0, 0, 0}, ramp_(0.0), servo_(-1),
-      servo_force_(0.0), servo_gain_(0.0), servo_limit_(0.0), touch_(false), touch_along_(false),
-      along_{0, 0, 0}, placed_(false), touch_shift_(0.0), moved_{0, 0, 0}, servo_speed_(0.0),
-      force_{0, 0, 0}, history_(NULL), total_{}, reduced_(true), step_motion_{0, 0, 0} {
+    : Fix(lmp, narg, arg),
+      ratio_(1.0),
+      friction_(0.0),
+      speed_{0, 0, 0},
+      ramp_(0.0),
+      servo_(-1),
+      servo_force_(0.0),
+      servo_gain_(0.0),
+      servo_limit_(0.0),
+      touch_(false),
+      touch_along_(false),
+      along_{0, 0, 0},
+      placed_(false),
+      touch_shift_(0.0),
+      moved_{0, 0, 0},
+      servo_speed_(0.0),
+      force_{0, 0, 0},
+      history_(NULL),
+      total_{},
+      reduced_(true),
+      step_motion_{0, 0, 0} {
   vector_flag = 1;
   size_vector = 15;
   global_freq = 1;
@@ -74,7 +91,8 @@ void FixPlaten::read_arguments(int narg, char **arg) {
     case 0:
       surface_.surface = Surface::plane;
       surface_.point = read_vector(a, "a coordinate of the plane's point (m)");
-      surface_.direction = unit(a, read_vector(a, "a component of the plane's normal"), "the normal");
+      surface_.direction =
+          unit(a, read_vector(a, "a component of the plane's normal"), "the normal");
       break;
     case 1: {
       surface_.surface = Surface::cylinder;
@@ -105,7 +123,8 @@ void FixPlaten::read_keywords(FixArguments &a) {
   while (a.more()) {
     const bool modulus = a.next_is("modulus");
     if (modulus || a.next_is("stiffness_per_radius")) {
-      if (stiffness) a.fail("the stiffness is given twice: use modulus or stiffness_per_radius once");
+      if (stiffness)
+        a.fail("the stiffness is given twice: use modulus or stiffness_per_radius once");
       stiffness = true;
       stiffness_.kind = modulus ? bondlab::PlatenStiffness::Kind::modulus
                                 : bondlab::PlatenStiffness::Kind::per_radius;
@@ -135,7 +154,8 @@ void FixPlaten::read_keywords(FixArguments &a) {
     } else if (a.next_is("at_rest")) {
       at_rest = true;
     } else {
-      a.unknown_keyword("touch, modulus, stiffness_per_radius, ratio, friction, velocity, servo, at_rest");
+      a.unknown_keyword(
+          "touch, modulus, stiffness_per_radius, ratio, friction, velocity, servo, at_rest");
     }
   }
   if (!stiffness) a.fail("needs a stiffness: `modulus E` (Pa) or `stiffness_per_radius K` (N/m2)");
@@ -193,7 +213,9 @@ void FixPlaten::unpack_restart(int i, int which) {
   std::copy(extra + at + 1, extra + at + 1 + kHistory, history_[i]);
 }
 
-double FixPlaten::memory_usage() { return static_cast<double>(atom->nmax) * kHistory * sizeof(double); }
+double FixPlaten::memory_usage() {
+  return static_cast<double>(atom->nmax) * kHistory * sizeof(double);
+}
 
 // ---- state of the platen ----
 

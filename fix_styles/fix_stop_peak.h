@@ -12,7 +12,9 @@
 
 #ifdef FIX_CLASS
 
+// clang-format off
 FixStyle(stop/peak,FixStopPeak)
+// clang-format on
 
 #else
 
@@ -46,7 +48,7 @@ class FixStopPeak : public Fix {
  private:
   std::unique_ptr<FixValueSource> value_, second_;
   bondlab::PeakWatch watch_;
-  int stopped_;         // PeakWatch::Verdict of the run this fix ended, for good
+  int stopped_;  // PeakWatch::Verdict of the run this fix ended, for good
   bool ended_this_run_;
 };
 

@@ -23,7 +23,8 @@ void FixTable::on_rank_0(Action action) {
   try {
     action();
   } catch (const std::exception &e) {
-    const std::string text = std::string("Fix ") + fix_->style + " (id " + fix_->id + "): " + e.what();
+    const std::string text =
+        std::string("Fix ") + fix_->style + " (id " + fix_->id + "): " + e.what();
     error->one(FLERR, text.c_str());
   }
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later
 
-   Job: a table of results (table_file.h) written by rank 0 of a run, for fixes: opened, gone on with
-   after a restart, completed when the run ends as it should.
+   Job: a table of results (table_file.h) written by rank 0 of a run, for fixes: opened, gone on
+   with after a restart, completed when the run ends as it should.
 
    Life: setup() at the start of every run, row() by any rank (rank 0 writes), finish() in post_run.
    Failure: an error that names the fix, the file and the system's reason. Units: the columns'. */
@@ -29,7 +29,7 @@ class FixTable : protected Pointers {
   std::vector<std::string> names, units;
   bondlab::StepClock clock;  // the time written; a fix that uses it restarts it
 
-  void setup();          // all ranks
+  void setup();  // all ranks
   bool is_open() const { return open_; }
   bigint last_step() const { return last_step_; }  // of the rows, on all ranks; -1: none
   double time_at(bigint step) const { return clock.at(step); }  // of the present run, s

@@ -12,8 +12,8 @@
 // of the shell to X, at a distance r,
 //     lateral =  sum (u - <u>).e / sum r.
 // The axis is at the mean position of the shell's particles and the mean displacement is taken off,
-// so that a specimen that moves sideways as a whole is not strained. Every particle stays in the set
-// of its reference position. Exact for a homogeneous strain, whatever the particles' places.
+// so that a specimen that moves sideways as a whole is not strained. Every particle stays in the
+// set of its reference position. Exact for a homogeneous strain, whatever the particles' places.
 //
 // Sums are exact (exact_sum.h): the same bits on any number of ranks.
 // Units: m, 1. Failure: an empty set gives NaN. Limits: small strain: first order in rotation.
@@ -29,21 +29,21 @@ namespace bondlab {
 
 struct GaugeSettings {
   enum Lateral { none, strips, shell };
-  int axial = 1;                  // axis, 0 1 2
-  double low = 0.25, high = 0.75; // layers, fractions of the height
-  double thickness = 0.0;         // of a layer, m
+  int axial = 1;                   // axis, 0 1 2
+  double low = 0.25, high = 0.75;  // layers, fractions of the height
+  double thickness = 0.0;          // of a layer, m
   Lateral lateral = none;
-  int across = 0;                 // axis of the strips; of a shell: the two that are not axial
-  double strip = 0.0;             // depth of a strip or shell from the surface, m
+  int across = 0;      // axis of the strips; of a shell: the two that are not axial
+  double strip = 0.0;  // depth of a strip or shell from the surface, m
 };
 
 // Where the specimen is; found once from the reference positions and kept.
 struct GaugeFrame {
-  double lo = 0.0, hi = 0.0;            // of the axial axis, m
-  double left = 0.0, right = 0.0;       // surfaces of the flanks in the section, m
-  double centre[2] = {0, 0};            // of the section, across, m (to find the shell)
-  double radius = 0.0;                  // of the section, m
-  double shell_centre[2] = {0, 0};      // mean position of the shell's particles, m
+  double lo = 0.0, hi = 0.0;        // of the axial axis, m
+  double left = 0.0, right = 0.0;   // surfaces of the flanks in the section, m
+  double centre[2] = {0, 0};        // of the section, across, m (to find the shell)
+  double radius = 0.0;              // of the section, m
+  double shell_centre[2] = {0, 0};  // mean position of the shell's particles, m
 };
 
 struct Extent {
@@ -56,38 +56,37 @@ struct Extent {
 };
 
 struct GaugeStrain {
-  double axial, lateral;            // 1; lateral NaN if not asked for
-  double top, bottom, flank;        // particles
+  double axial, lateral;      // 1; lateral NaN if not asked for
+  double top, bottom, flank;  // particles
 };
 
 class Gauge {
  public:
   Gauge() = default;
-  Gauge(const GaugeSettings& settings, const GaugeFrame& frame) : s_(settings), f_(frame) {}
+  Gauge(const GaugeSettings &settings, const GaugeFrame &frame) : s_(settings), f_(frame) {}
 
   int first_across() const { return s_.axial == 0 ? 1 : 0; }
   int second_across() const { return s_.axial == 2 ? 1 : 2; }
 
   double height(double fraction) const { return f_.lo + fraction * (f_.hi - f_.lo); }
-  bool in_layer(const double* X, double fraction) const {
+  bool in_layer(const double *X, double fraction) const {
     return std::fabs(X[s_.axial] - height(fraction)) <= 0.5 * s_.thickness;
   }
-  bool in_section(const double* X) const {
+  bool in_section(const double *X) const {
     return X[s_.axial] >= height(s_.low) && X[s_.axial] <= height(s_.high);
   }
-  bool in_left(const double* X) const {
+  bool in_left(const double *X) const {
     return in_section(X) && X[s_.across] - f_.left <= s_.strip;
   }
-  bool in_right(const double* X) const {
+  bool in_right(const double *X) const {
     return in_section(X) && f_.right - X[s_.across] <= s_.strip;
   }
-  bool in_shell(const double* X) const {
-    return in_section(X) &&
-           std::hypot(X[first_across()] - f_.centre[0], X[second_across()] - f_.centre[1]) >=
-               f_.radius - s_.strip;
+  bool in_shell(const double *X) const {
+    return in_section(X) && std::hypot(X[first_across()] - f_.centre[0],
+                                       X[second_across()] - f_.centre[1]) >= f_.radius - s_.strip;
   }
 
-  void add(const double* X, const double* u) {
+  void add(const double *X, const double *u) {
     if (in_layer(X, s_.high)) add_to(top, X[s_.axial], u[s_.axial]);
     if (in_layer(X, s_.low)) add_to(bottom, X[s_.axial], u[s_.axial]);
     if (s_.lateral == GaugeSettings::strips) {
@@ -104,7 +103,7 @@ class Gauge {
   }
 
   static constexpr std::size_t number_of_sums = 13;
-  ExactSums<number_of_sums>& sums() { return sums_; }
+  ExactSums<number_of_sums> &sums() { return sums_; }
 
   GaugeStrain strain() const {
     const auto v = [this](int k) { return sums_.value(k); };

@@ -17,14 +17,14 @@ std::vector<Point> box(int count, Point lo, Point hi, int seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> u(0.0, 1.0);
   std::vector<Point> points(count);
-  for (Point& p : points)
+  for (Point &p : points)
     for (int d = 0; d < 3; ++d) p[d] = lo[d] + (hi[d] - lo[d]) * u(random);
   return points;
 }
 
-GaugeStrain measure(Gauge gauge, const std::vector<Point>& points,
-                    const std::array<Point, 3>& gradient, Point shift) {
-  for (const Point& X : points) {
+GaugeStrain measure(Gauge gauge, const std::vector<Point> &points,
+                    const std::array<Point, 3> &gradient, Point shift) {
+  for (const Point &X : points) {
     Point u = shift;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) u[i] += gradient[i][j] * X[j];
@@ -50,8 +50,8 @@ TEST(GaugeStrain, ExactForHomogeneousStrainInThePlane) {
   GaugeFrame f;
   f.lo = 0.0, f.hi = 0.1, f.left = -0.025, f.right = 0.025;
   const auto points = box(2000, {-0.025, 0, 0}, {0.025, 0.1, 0}, 1);
-  const GaugeStrain g =
-      measure(Gauge(flat(), f), points, {{{2.5e-4, 0, 0}, {0, -1e-3, 0}, {0, 0, 0}}}, {0.01, -0.02, 0});
+  const GaugeStrain g = measure(Gauge(flat(), f), points,
+                                {{{2.5e-4, 0, 0}, {0, -1e-3, 0}, {0, 0, 0}}}, {0.01, -0.02, 0});
   EXPECT_NEAR(g.axial, 1e-3, tolerance);
   EXPECT_NEAR(g.lateral, 2.5e-4, tolerance);
   EXPECT_GT(g.top, 100);
@@ -77,7 +77,7 @@ TEST(GaugeStrain, ExactForHomogeneousStrainOfACylinder) {
     // the mean of the shell, as the fix finds it
     Gauge finder(s, f);
     double n = 0, mean[2] = {0, 0};
-    for (const Point& p : points)
+    for (const Point &p : points)
       if (finder.in_shell(p.data())) n += 1, mean[0] += p[a], mean[1] += p[b];
     f.shell_centre[0] = mean[0] / n, f.shell_centre[1] = mean[1] / n;
     std::array<Point, 3> gradient{};

@@ -4,10 +4,10 @@
 // particle up and increased while it slows it down.
 //
 // Law: F' = F - alpha |F| sign(v) for each degree of freedom; nothing where v = 0. An oscillator
-// loses amplitude by sqrt((1-alpha)/(1+alpha)) each half cycle, which is a damping ratio of alpha/pi
-// whatever its frequency (PHYSICS.md 3.4).
-// Method: a loop over the contiguous components without branches, which compilers vectorise;
-// |F| sign(v) is a copied sign bit, and v = 0 a select.
+// loses amplitude by sqrt((1-alpha)/(1+alpha)) each half cycle, which is a damping ratio of
+// alpha/pi whatever its frequency (PHYSICS.md 3.4). Method: a loop over the contiguous components
+// without branches, which compilers vectorise; |F| sign(v) is a copied sign bit, and v = 0 a
+// select.
 //
 // Source: Cundall 1987, "Distinct element models of rock and soil structure"; Itasca PFC manual.
 // Units: any; alpha in [0, 1). Failure: none; NaN stays NaN. Limits: not Galilean invariant: the
@@ -25,7 +25,7 @@ inline double locally_damped(double force, double velocity, double alpha) {
   return force - (velocity == 0.0 ? 0.0 : against);
 }
 
-inline void damp_locally(double* __restrict force, const double* __restrict velocity,
+inline void damp_locally(double *__restrict force, const double *__restrict velocity,
                          std::size_t count, double alpha) {
   for (std::size_t k = 0; k < count; ++k) force[k] = locally_damped(force[k], velocity[k], alpha);
 }

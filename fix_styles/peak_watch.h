@@ -6,8 +6,8 @@
 // Rule: stop when value < (1 - drop) peak, once peak > minimum; or when second > limit. The peak is
 // the largest value seen. The minimum keeps the noise before loading from looking like a peak.
 //
-// Units: those of the values watched; drop is a fraction. Failure: NaN never stops a test (the curve
-// writer reports it).
+// Units: those of the values watched; drop is a fraction. Failure: NaN never stops a test (the
+// curve writer reports it).
 #ifndef BONDLAB_PEAK_WATCH_H
 #define BONDLAB_PEAK_WATCH_H
 

@@ -9,8 +9,8 @@
 // distance from the surface less the particle's radius, negative when they overlap.
 //
 // Source: elementary geometry. Units: m. Failure: none; a particle centred on the axis of a
-// cylinder (or in the centre of a sphere) gets an arbitrary normal. Limits: no edges: a plane has no
-// end, so the part of a specimen beside the platen would be touched as well.
+// cylinder (or in the centre of a sphere) gets an arbitrary normal. Limits: no edges: a plane has
+// no end, so the part of a specimen beside the platen would be touched as well.
 #ifndef BONDLAB_PLATEN_GEOMETRY_H
 #define BONDLAB_PLATEN_GEOMETRY_H
 
@@ -31,24 +31,24 @@ enum class Surface { plane, cylinder, sphere };
 
 struct PlatenGeometry {
   Surface surface = Surface::plane;
-  Vec3 point{0, 0, 0};     // of the plane, of the axis, or the centre, m
-  Vec3 direction{0, 0, 1}; // unit: normal of the plane (to the particles) or axis of the cylinder
-  double radius = 0.0;     // of cylinder and sphere, m
-  bool inside = false;     // particles are inside the cylinder or sphere
+  Vec3 point{0, 0, 0};      // of the plane, of the axis, or the centre, m
+  Vec3 direction{0, 0, 1};  // unit: normal of the plane (to the particles) or axis of the cylinder
+  double radius = 0.0;      // of cylinder and sphere, m
+  bool inside = false;      // particles are inside the cylinder or sphere
 };
 
 struct PlatenTouch {
-  double gap;    // m, negative: overlap
-  Vec3 normal;   // unit, from the platen to the particle
-  Vec3 point;    // on the platen's surface, nearest to the particle, m
+  double gap;   // m, negative: overlap
+  Vec3 normal;  // unit, from the platen to the particle
+  Vec3 point;   // on the platen's surface, nearest to the particle, m
 };
 
 // The part of x that the distance from an axis or a centre is made of.
-inline Vec3 across(const PlatenGeometry& p, Vec3 x) {
+inline Vec3 across(const PlatenGeometry &p, Vec3 x) {
   return p.surface == Surface::cylinder ? x - dot(x, p.direction) * p.direction : x;
 }
 
-inline PlatenTouch touch(const PlatenGeometry& p, Vec3 centre, double radius) {
+inline PlatenTouch touch(const PlatenGeometry &p, Vec3 centre, double radius) {
   const Vec3 from_point = centre - p.point;
   if (p.surface == Surface::plane) {
     const double height = dot(from_point, p.direction);
@@ -72,7 +72,7 @@ inline PlatenTouch touch(const PlatenGeometry& p, Vec3 centre, double radius) {
 
 // How far the platen can be moved along the unit vector `along` until it touches this particle
 // (negative: back). Infinite if it would never meet it. For a hollow surface, the wall behind.
-inline double travel_to_touch(const PlatenGeometry& p, Vec3 along, Vec3 centre, double radius) {
+inline double travel_to_touch(const PlatenGeometry &p, Vec3 along, Vec3 centre, double radius) {
   const double never = std::numeric_limits<double>::infinity();
   if (p.surface == Surface::plane) {
     const double approach = dot(along, p.direction);
@@ -89,7 +89,7 @@ inline double travel_to_touch(const PlatenGeometry& p, Vec3 along, Vec3 centre, 
 }
 
 // Moves a plane along its normal, or changes the radius, so that a smallest gap becomes zero.
-inline void close_gap(PlatenGeometry& p, double gap) {
+inline void close_gap(PlatenGeometry &p, double gap) {
   if (p.surface == Surface::plane)
     p.point = p.point + gap * p.direction;
   else

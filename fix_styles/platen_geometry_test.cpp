@@ -73,8 +73,8 @@ TEST(PlatenGeometry, TheNormalIsTheGradientOfTheGap) {
   for (Surface s : {Surface::plane, Surface::cylinder, Surface::sphere})
     for (bool inside : {false, true})
       for (int k = 0; k < 50; ++k) {
-        const auto p = make(s, {u(random), u(random), u(random)}, {u(random), u(random), 1.1}, 3.0,
-                            inside);
+        const auto p =
+            make(s, {u(random), u(random), u(random)}, {u(random), u(random), 1.1}, 3.0, inside);
         const Vec3 x{u(random), u(random), u(random)};
         const Vec3 n = touch(p, x, 0.1).normal;
         const auto slope = [&](Vec3 e) {
@@ -100,12 +100,11 @@ TEST(PlatenGeometry, OnTheAxisTheNormalIsStillAUnitVector) {
 }
 
 TEST(PlatenGeometry, ClosingTheGapMakesItZero) {
-  std::vector<PlatenGeometry> platens = {
-      make(Surface::plane, {0, -2, 0}, {0.1, 1, 0}, 0, false),
-      make(Surface::cylinder, {0, -3, 0}, {0, 0, 1}, 0.5, false),
-      make(Surface::cylinder, {0, 0, 0}, {0, 0, 1}, 4.0, true),
-      make(Surface::sphere, {0, 0, 3}, {0, 0, 1}, 0.5, false),
-      make(Surface::sphere, {0, 0, 0}, {0, 0, 1}, 4.0, true)};
+  std::vector<PlatenGeometry> platens = {make(Surface::plane, {0, -2, 0}, {0.1, 1, 0}, 0, false),
+                                         make(Surface::cylinder, {0, -3, 0}, {0, 0, 1}, 0.5, false),
+                                         make(Surface::cylinder, {0, 0, 0}, {0, 0, 1}, 4.0, true),
+                                         make(Surface::sphere, {0, 0, 3}, {0, 0, 1}, 0.5, false),
+                                         make(Surface::sphere, {0, 0, 0}, {0, 0, 1}, 4.0, true)};
   for (PlatenGeometry p : platens) {
     const Vec3 x{0.2, 0.3, -0.1};
     close_gap(p, touch(p, x, 0.25).gap);

@@ -67,8 +67,8 @@ inline Vec3 carried_with_normal(Vec3 v, Vec3 n0, Vec3 n) {
 
 // For overlap > 0. `motion`: displacement of the particle's point of contact relative to the platen
 // over the step, m. With advance = false the force is that of the stored state, which stays.
-inline PlatenForce platen_force(const PlatenContact& c, double overlap, Vec3 normal, Vec3 motion,
-                                bool advance, PlatenHistory& history) {
+inline PlatenForce platen_force(const PlatenContact &c, double overlap, Vec3 normal, Vec3 motion,
+                                bool advance, PlatenHistory &history) {
   const double fn = c.kn * overlap;
   Vec3 shear = history.shear;
   if (advance) {

@@ -3,8 +3,8 @@
 // Job: the time at a step, the same bits whether a run is done in one piece, in several, or after a
 // restart.
 //
-// Method: time = base + (step - base step) dt, with a new base only when dt changes. The engine's own
-// time is rounded anew at every end of a run, and a restart file doesn't hold it.
+// Method: time = base + (step - base step) dt, with a new base only when dt changes. The engine's
+// own time is rounded anew at every end of a run, and a restart file doesn't hold it.
 //
 // Units: s. Failure: none.
 #ifndef BONDLAB_STEP_CLOCK_H
@@ -15,10 +15,10 @@
 namespace bondlab {
 
 struct StepClock {
-  double base = 0.0;           // s
-  double base_step = 0.0;      // a whole number; double, so that a restart is a list of doubles
-  double dt = 0.0;             // s; 0: not started
-  double now = 0.0;            // s
+  double base = 0.0;       // s
+  double base_step = 0.0;  // a whole number; double, so that a restart is a list of doubles
+  double dt = 0.0;         // s; 0: not started
+  double now = 0.0;        // s
   double step = 0.0;
 
   bool started() const { return dt > 0.0; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Job: write a table of results row by row so that a reader can tell a finished one from a torn one,
-// and go on with it after a restart.
+// Job: write a table of results row by row so that a reader can tell a finished one from a torn
+// one, and go on with it after a restart.
 //
 // Format: tab separated text,
 //     # bondlab-curve 1                  kind and version
@@ -43,8 +43,8 @@ inline std::string number_text(double x) {
 class TableFile {
  public:
   TableFile() = default;
-  TableFile(const TableFile&) = delete;
-  TableFile& operator=(const TableFile&) = delete;
+  TableFile(const TableFile &) = delete;
+  TableFile &operator=(const TableFile &) = delete;
   ~TableFile() {
     if (file_) std::fclose(file_);
   }
@@ -53,8 +53,8 @@ class TableFile {
   std::int64_t last_step() const { return last_step_; }  // of the rows in the file; -1: none
 
   // A new file; an old one of that name is replaced.
-  void create(const std::string& path, const std::string& kind,
-              const std::vector<std::string>& names, const std::vector<std::string>& units) {
+  void create(const std::string &path, const std::string &kind,
+              const std::vector<std::string> &names, const std::vector<std::string> &units) {
     path_ = path;
     last_step_ = -1;
     file_ = std::fopen(path.c_str(), "w");
@@ -63,8 +63,8 @@ class TableFile {
   }
 
   // Goes on with a file up to and including `step`; a new file if there is none.
-  void go_on(const std::string& path, const std::string& kind,
-             const std::vector<std::string>& names, const std::vector<std::string>& units,
+  void go_on(const std::string &path, const std::string &kind,
+             const std::vector<std::string> &names, const std::vector<std::string> &units,
              std::int64_t step) {
     path_ = path;
     std::ifstream in(path, std::ios::binary);
@@ -75,9 +75,9 @@ class TableFile {
     if (text.size() < head.size() && head.compare(0, text.size(), text) == 0)
       return create(path, kind, names, units);  // died while the header was written
     if (text.compare(0, head.size(), head) != 0)
-      throw std::runtime_error("file '" + path +
-                               "' can't be gone on with: its header is not that of this run, which is\n" +
-                               head);
+      throw std::runtime_error(
+          "file '" + path +
+          "' can't be gone on with: its header is not that of this run, which is\n" + head);
     last_step_ = -1;
     std::size_t keep = head.size();
     for (std::size_t end; (end = text.find('\n', keep)) != std::string::npos; keep = end + 1) {
@@ -91,14 +91,14 @@ class TableFile {
   }
 
   // `cells` without the step.
-  void row(std::int64_t step, const std::vector<std::string>& cells) {
+  void row(std::int64_t step, const std::vector<std::string> &cells) {
     std::string line = std::to_string(step);
-    for (const std::string& cell : cells) line += '\t' + cell;
+    for (const std::string &cell : cells) line += '\t' + cell;
     put(line + '\n');
     last_step_ = step;
   }
 
-  void complete(const std::string& reason) {
+  void complete(const std::string &reason) {
     end_of_rows_ = std::ftell(file_);
     put("# complete: " + reason + '\n');
   }
@@ -109,16 +109,16 @@ class TableFile {
   }
 
  private:
-  static std::string joined(const std::vector<std::string>& words) {
+  static std::string joined(const std::vector<std::string> &words) {
     std::string line;
-    for (const std::string& w : words) line += (line.empty() ? "" : "\t") + w;
+    for (const std::string &w : words) line += (line.empty() ? "" : "\t") + w;
     return line;
   }
-  static std::string header(const std::string& kind, const std::vector<std::string>& names,
-                            const std::vector<std::string>& units) {
+  static std::string header(const std::string &kind, const std::vector<std::string> &names,
+                            const std::vector<std::string> &units) {
     return "# " + kind + "\n# names: " + joined(names) + "\n# units: " + joined(units) + '\n';
   }
-  void put(const std::string& text) {
+  void put(const std::string &text) {
     if (std::fwrite(text.data(), 1, text.size(), file_) != text.size() || std::fflush(file_) != 0)
       fail("can't be written");
   }
@@ -128,11 +128,11 @@ class TableFile {
       fail("can't be shortened");
     end_of_rows_ = -1;
   }
-  [[noreturn]] void fail(const char* what) const {
+  [[noreturn]] void fail(const char *what) const {
     throw std::runtime_error("file '" + path_ + "' " + what + ": " + std::strerror(errno));
   }
 
-  std::FILE* file_ = nullptr;
+  std::FILE *file_ = nullptr;
   std::string path_;
   std::int64_t last_step_ = -1;
   long end_of_rows_ = -1;  // where the completion line begins; -1: there is none

@@ -27,7 +27,7 @@ class TableFileTest : public testing::Test {
     s << in.rdbuf();
     return s.str();
   }
-  void write(const std::string& s) const { std::ofstream(path_) << s; }
+  void write(const std::string &s) const { std::ofstream(path_) << s; }
 
   fs::path folder_;
   std::string path_;
@@ -74,9 +74,9 @@ TEST_F(TableFileTest, AnotherRunTakesTheCompletionOff) {
 
 TEST_F(TableFileTest, GoesOnAfterTheStepOfTheRestart) {
   const std::string rows = "0\t0\n10\t1\n20\t2\n";
-  for (const std::string& tail : {std::string(), std::string("# complete: end_of_run\n"),
-                                  std::string("30\t3\n40\t4\n"), std::string("30\t3"),
-                                  std::string("30\t3\n# complete: end_of_run\n")}) {
+  for (const std::string &tail :
+       {std::string(), std::string("# complete: end_of_run\n"), std::string("30\t3\n40\t4\n"),
+        std::string("30\t3"), std::string("30\t3\n# complete: end_of_run\n")}) {
     write(head_ + rows + tail);
     TableFile t;
     t.go_on(path_, "bondlab-curve 1", names_, units_, 25);
@@ -87,7 +87,7 @@ TEST_F(TableFileTest, GoesOnAfterTheStepOfTheRestart) {
 }
 
 TEST_F(TableFileTest, GoesOnWithNothing) {
-  for (const std::string& old : {std::string("none"), std::string(), head_.substr(0, 30), head_}) {
+  for (const std::string &old : {std::string("none"), std::string(), head_.substr(0, 30), head_}) {
     fs::remove(path_);
     if (old != "none") write(old);
     TableFile t;
@@ -110,7 +110,7 @@ TEST_F(TableFileTest, SaysWhyAFileCannotBeWritten) {
   try {
     t.create((folder_ / "absent" / "t.tsv").string(), "bondlab-curve 1", names_, units_);
     FAIL();
-  } catch (const std::runtime_error& e) {
+  } catch (const std::runtime_error &e) {
     EXPECT_NE(std::string(e.what()).find("absent"), std::string::npos);
     EXPECT_NE(std::string(e.what()).find("No such file"), std::string::npos);
   }

@@ -96,9 +96,12 @@ int wait_for(pid_t child, double limit, bool &timed_out) {
 EngineResult run_deck(const EngineFolder &folder, const std::string &deck, int ranks,
                       const std::vector<std::string> &arguments, double limit) {
   folder.write("in.deck", deck);
-  std::vector<std::string> command = {
-      BONDLAB_MPIRUN, "-np", std::to_string(ranks), "--oversubscribe", "--bind-to", "none",
-      BONDLAB_LMP,    "-in", "in.deck",             "-log",            "log.bondlab"};
+  std::vector<std::string> command;
+  if (ranks > 0)
+    command = {BONDLAB_MPIRUN,    "-np",       std::to_string(ranks),
+               "--oversubscribe", "--bind-to", "none"};
+  for (const char *word : {BONDLAB_LMP, "-in", "in.deck", "-log", "log.bondlab"})
+    command.push_back(word);
   command.insert(command.end(), arguments.begin(), arguments.end());
   EngineResult result;
   const pid_t child = fork();

@@ -3,7 +3,8 @@
 // Job: run a deck given as text with lmp_bondlab on some ranks in a folder of its own, with a time
 // limit, and give back what a test wants to look at.
 //
-// Method: `mpirun -np K lmp_bondlab -in in.deck -log log.bondlab` in its own process group, standard
+// Method: `mpirun -np K lmp_bondlab -in in.deck -log log.bondlab` in its own process group,
+// standard
 //   input closed, output to screen.txt; after the limit the group is ended. The folder is removed
 //   with the EngineFolder, unless the test has failed: then its place is printed.
 // Units: the limit in s. Failure: a run that can't be started gives exit status 127.
@@ -41,7 +42,8 @@ struct EngineResult {
   bool says(const std::string &text) const { return screen.find(text) != std::string::npos; }
 };
 
-// `arguments` are added to the command line, for instance {"-var", "E", "1e9"}.
+// ranks = 0: one process without mpirun, which starts and fails faster. `arguments` are added to
+// the command line, for instance {"-var", "E", "1e9"}.
 EngineResult run_deck(const EngineFolder &folder, const std::string &deck, int ranks = 1,
                       const std::vector<std::string> &arguments = {}, double limit = 60.0);
 
@@ -50,7 +52,7 @@ struct Table {
   std::string kind;  // first line without "# "
   std::vector<std::string> names, units;
   std::vector<std::vector<std::string>> rows;
-  std::string completion;  // "" if there is no such line
+  std::string completion;                                     // "" if there is no such line
   std::vector<double> column(const std::string &name) const;  // throws if absent
   double last(const std::string &name) const;
 };

@@ -29,9 +29,9 @@ const std::string force_columns =
 TEST(FixPlaten, ForceIsStiffnessTimesOverlapIn3D) {
   EngineFolder folder;
   folder.write("particles.data", data_file({{0.002, 0.9e-3, 0.001}}, 3, 0.01));
-  const Table t = run_one(folder, few_particles(3, 1e-8) +
-                                      "fix p all platen plane 0 0 0 0 1 0 modulus 1e9\n" +
-                                      force_columns + "run 0\n");
+  const Table t =
+      run_one(folder, few_particles(3, 1e-8) + "fix p all platen plane 0 0 0 0 1 0 modulus 1e9\n" +
+                          force_columns + "run 0\n");
   const double force = stiffness_3d * 0.1e-3;
   EXPECT_NEAR(t.last("fy"), -force, 1e-12 * force);
   EXPECT_EQ(t.last("fx"), 0.0);
@@ -46,9 +46,9 @@ TEST(FixPlaten, ForceIsStiffnessTimesOverlapIn2D) {
   EngineFolder folder;
   folder.write("particles.data", data_file({{0, 0.9e-3, 0}}, 2, 0.01));
   for (const std::string stiffness : {"modulus 1e9", "stiffness_per_radius 2e9"}) {
-    const Table t = run_one(folder, few_particles(2, 1e-8, thickness) +
-                                        "fix p all platen plane 0 0 0 0 1 0 " + stiffness + "\n" +
-                                        force_columns + "run 0\n");
+    const Table t =
+        run_one(folder, few_particles(2, 1e-8, thickness) + "fix p all platen plane 0 0 0 0 1 0 " +
+                            stiffness + "\n" + force_columns + "run 0\n");
     const double k = stiffness == "modulus 1e9" ? stiffness_2d : 2e9 * radius;
     EXPECT_NEAR(t.last("fy"), -k * 0.1e-3, 1e-12 * k * 0.1e-3) << stiffness;
   }
@@ -67,9 +67,8 @@ TEST(FixPlaten, CurvedPlatens) {
                         Case{"cylinder vector 0 0 2 0 0 5 1.4e-3 inside", -0.6, -0.8, 0.1e-3},
                         Case{"sphere -0.3e-3 -0.4e-3 0 0.1e-3 outside", 0.6, 0.8, 0.1e-3},
                         Case{"sphere 0 0 0 1.4e-3 inside", -0.6, -0.8, 0.1e-3}}) {
-    const Table t =
-        run_one(folder, few_particles(3, 1e-8) + "fix p all platen " + c.surface +
-                            " modulus 1e9\n" + force_columns + "run 0\n");
+    const Table t = run_one(folder, few_particles(3, 1e-8) + "fix p all platen " + c.surface +
+                                        " modulus 1e9\n" + force_columns + "run 0\n");
     const double force = stiffness_3d * c.overlap;
     EXPECT_NEAR(t.last("fx"), -force * c.fx, 1e-11 * force) << c.surface;
     EXPECT_NEAR(t.last("fy"), -force * c.fy, 1e-11 * force) << c.surface;
@@ -83,12 +82,12 @@ TEST(FixPlaten, OscillatesWithTheClosedFormFrequency) {
   EngineFolder folder;
   const double offset = 1e-5, dt = 2e-7;
   folder.write("particles.data", data_file({{0, offset, 0}}, 3, 0.01));
-  const Table t = run_one(
-      folder, few_particles(3, dt) + "fix move all nve/bonded\n"
-                  "fix p all platen plane 0 -0.9e-3 0 0 1 0 modulus 1e9\n"
-                  "fix q all platen plane 0 0.9e-3 0 0 -1 0 modulus 1e9\n"
-                  "variable y equal xcm(all,y)\n"
-                  "fix curve all curve 1 curve.tsv y m v_y\nrun 2000\n");
+  const Table t = run_one(folder, few_particles(3, dt) +
+                                      "fix move all nve/bonded\n"
+                                      "fix p all platen plane 0 -0.9e-3 0 0 1 0 modulus 1e9\n"
+                                      "fix q all platen plane 0 0.9e-3 0 0 -1 0 modulus 1e9\n"
+                                      "variable y equal xcm(all,y)\n"
+                                      "fix curve all curve 1 curve.tsv y m v_y\nrun 2000\n");
   const double omega = 2 / dt * std::asin(0.5 * dt * std::sqrt(2 * stiffness_3d / mass_3d));
   ASSERT_GT(omega * 2000 * dt, 10 * 2 * pi);  // more than ten cycles
   const auto y = t.column("y");
@@ -121,17 +120,18 @@ TEST(FixPlaten, FrictionSticksThenSlides) {
 }
 
 TEST(FixPlaten, ShearTurnsTheParticleAndBalances) {
-  // Free sphere on a platen that starts to move: torque on the sphere is arm x force, so its spin is
-  // that of a rolling start: acceleration F/m at the centre, F r/I about it, at first.
+  // Free sphere on a platen that starts to move: torque on the sphere is arm x force, so its spin
+  // is that of a rolling start: acceleration F/m at the centre, F r/I about it, at first.
   EngineFolder folder;
   folder.write("particles.data", data_file({{0, 1e-3 - 1e-6, 0}}, 3, 0.01));
-  const Table t = run_one(
-      folder, few_particles(3, 1e-8) + "fix move all nve/bonded\n"
-                  "fix q all platen plane 0 1.998e-3 0 0 -1 0 modulus 1e9\n"
-                  "fix p all platen plane 0 0 0 0 1 0 modulus 1e9 ratio 2 friction 5 "
-                  "velocity 1e-3 0 0 ramp 1e-6\n"
-                  "variable vx equal vcm(all,x)\nvariable wz equal omegaz[1]\n"
-                  "fix curve all curve 1 curve.tsv vx m/s v_vx wz 1/s v_wz\nrun 200\n");
+  const Table t =
+      run_one(folder, few_particles(3, 1e-8) +
+                          "fix move all nve/bonded\n"
+                          "fix q all platen plane 0 1.998e-3 0 0 -1 0 modulus 1e9\n"
+                          "fix p all platen plane 0 0 0 0 1 0 modulus 1e9 ratio 2 friction 5 "
+                          "velocity 1e-3 0 0 ramp 1e-6\n"
+                          "variable vx equal vcm(all,x)\nvariable wz equal omegaz[1]\n"
+                          "fix curve all curve 1 curve.tsv vx m/s v_vx wz 1/s v_wz\nrun 200\n");
   // I w = -arm F: with the arm of the contact point R - overlap and I = 0.4 m R^2,
   // w R/v = -(m R arm)/I times (sign of the arm downwards).
   const double arm = radius - 1e-6;
@@ -148,8 +148,8 @@ TEST(FixPlaten, TheRampIsTheClosedForm) {
                   "fix p all platen plane 0 0 0 0 1 0 modulus 1e9 velocity 0.3 -0.2 0.1 ramp 2e-4\n"
                   "fix curve all curve 1 curve.tsv dx m f_p[7] dy m f_p[8] dz m f_p[9] vx m/s "
                   "f_p[10] vy m/s f_p[11] vz m/s f_p[12]\nrun 3000\n");
-  const auto time = t.column("time"), dx = t.column("dx"), dy = t.column("dy"),
-             dz = t.column("dz"), vx = t.column("vx");
+  const auto time = t.column("time"), dx = t.column("dx"), dy = t.column("dy"), dz = t.column("dz"),
+             vx = t.column("vx");
   EXPECT_EQ(vx.front(), 0.0);
   EXPECT_EQ(dx.front(), 0.0);
   for (std::size_t k = 0; k < time.size(); ++k) {
@@ -165,8 +165,8 @@ TEST(FixPlaten, TheRampIsTheClosedForm) {
 
 TEST(FixPlaten, TouchLeavesNoGapAndNoForce) {
   EngineFolder folder;
-  folder.write("particles.data", data_file({{0, 0.002, 0}, {0.003, 0.0045, 0}, {-0.003, -0.002, 0}},
-                                           3, 0.01));
+  folder.write("particles.data",
+               data_file({{0, 0.002, 0}, {0.003, 0.0045, 0}, {-0.003, -0.002, 0}}, 3, 0.01));
   struct Case {
     const char *arguments;
     double shift;
@@ -190,13 +190,15 @@ TEST(FixPlaten, ServoReachesAndHoldsItsForce) {
   EngineFolder folder;
   folder.write("particles.data", data_file({{0, 1e-3, 0}}, 3, 0.01));
   const Table t = run_one(
-      folder, few_particles(3, 2e-7) + "fix move all nve/bonded\n"
-                  "fix bottom all platen plane 0 0 0 0 1 0 modulus 1e9 at_rest\n"
-                  "fix top all platen plane 0 2e-3 0 0 -1 0 modulus 1e9 servo fy 20 gain 1e-3 "
-                  "vmax 0.05\n"
-                  "fix damp all damp/local 0.5\n"
-                  "fix curve all curve 10 curve.tsv top N f_top[2] bottom N f_bottom[2] d m f_top[8] "
-                  "v m/s f_top[11]\nrun 40000\n");
+      folder,
+      few_particles(3, 2e-7) +
+          "fix move all nve/bonded\n"
+          "fix bottom all platen plane 0 0 0 0 1 0 modulus 1e9 at_rest\n"
+          "fix top all platen plane 0 2e-3 0 0 -1 0 modulus 1e9 servo fy 20 gain 1e-3 "
+          "vmax 0.05\n"
+          "fix damp all damp/local 0.5\n"
+          "fix curve all curve 10 curve.tsv top N f_top[2] bottom N f_bottom[2] d m f_top[8] "
+          "v m/s f_top[11]\nrun 40000\n");
   EXPECT_NEAR(t.last("top"), 20.0, 20.0 * 1e-6);
   EXPECT_NEAR(t.last("bottom"), -20.0, 20.0 * 1e-6);
   EXPECT_NEAR(t.last("d"), -20.0 * 2 / stiffness_3d, 20.0 * 2 / stiffness_3d * 1e-5);
@@ -207,10 +209,11 @@ TEST(FixPlaten, ServoReachesAndHoldsItsForce) {
 TEST(FixPlaten, AChangeOfTheTimeStepDoesNotJerkThePlaten) {
   EngineFolder folder;
   folder.write("particles.data", data_file({{0, 0.005, 0}}, 3, 0.01));
-  const Table t = run_one(folder, few_particles(3, 1e-7) +
-                                      "fix p all platen plane 0 0 0 0 1 0 modulus 1e9 velocity 0 0.5 0\n"
-                                      "fix curve all curve 1 curve.tsv d m f_p[8]\n"
-                                      "run 100\ntimestep 3e-8\nrun 100\nreset_timestep 1000\nrun 100\n");
+  const Table t =
+      run_one(folder, few_particles(3, 1e-7) +
+                          "fix p all platen plane 0 0 0 0 1 0 modulus 1e9 velocity 0 0.5 0\n"
+                          "fix curve all curve 1 curve.tsv d m f_p[8]\n"
+                          "run 100\ntimestep 3e-8\nrun 100\nreset_timestep 1000\nrun 100\n");
   const auto d = t.column("d");
   ASSERT_EQ(d.size(), 302u);  // step 1000 after the reset is a row again
   EXPECT_NEAR(d[100], 0.5 * 100 * 1e-7, 1e-17);
