@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "response/response.h"
 
@@ -81,13 +82,14 @@ LineFit fit_line(const std::vector<double> &x, const std::vector<double> &y, Sam
     mean_y += y[i] / n;
   }
   double sxx = 0, sxy = 0, syy = 0;  // about the means: strains of 1e-4 must not cancel
+  const double rounding = std::numeric_limits<double>::epsilon() * std::fabs(mean_x);
   for (std::size_t i = window.first; i < window.last; ++i) {
     const double dx = x[i] - mean_x, dy = y[i] - mean_y;
     sxx += dx * dx;
     sxy += dx * dy;
     syy += dy * dy;
   }
-  if (!(sxx > 0))
+  if (!(sxx > 100 * n * rounding * rounding))  // what rounding alone leaves of a constant
     throw ResponseError(ResponseCause::implausible, "the strain does not change in the regression window");
   LineFit fit;
   fit.slope = sxy / sxx;
