@@ -69,6 +69,8 @@ foreach(script ${tool_tests})
   if(name STREQUAL "readme_test")
     # The README's commands run studies.
     set_tests_properties(tools.${name} PROPERTIES LABELS study TIMEOUT 1200 RUN_SERIAL TRUE)
+  elseif(name STREQUAL "bench_test")
+    set_tests_properties(tools.${name} PROPERTIES LABELS engine TIMEOUT 300 RUN_SERIAL TRUE)
   else()
     set_tests_properties(tools.${name} PROPERTIES LABELS unit TIMEOUT 300)
   endif()

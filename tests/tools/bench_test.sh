@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+#
+# tools/bench on a packing of its own: the form of its output, that its figures can be right, and
+# its errors.
+
+. "$(dirname "$0")/harness.sh"
+
+program=$build_dir/bin/lmp_bondlab
+[ -x "$program" ] || skip "lmp_bondlab is not built"
+bench() { "$source_dir/tools/bench" --program="$program" "$@"; }
+
+# A brick of 8 x 8 x 16 touching spheres, bonded to their six neighbours.
+export BONDLAB_PACKINGS=$scratch
+awk 'BEGIN { for (k = 0; k < 16; k++) for (j = 0; j < 8; j++) for (i = 0; i < 8; i++)
+  print 2e-4 * i, 2e-4 * j, 2e-4 * k + 1e-4, 1e-4 }' > "$scratch/brick.xyzr"
+awk 'BEGIN { for (k = 0; k < 16; k++) for (j = 0; j < 8; j++) for (i = 0; i < 8; i++) {
+  n = i + 8 * (j + 8 * k)
+  if (i < 7) print n, n + 1
+  if (j < 7) print n, n + 8
+  if (k < 15) print n, n + 64 } }' > "$scratch/brick.bonds"
+
+capture bench --json --case=brick --ranks=1,2 --repeats=1 --seconds=1
+check "status 0: $err" test $status = 0
+check "one line for each number of ranks: $out" test "$(wc -l <<< "$out")" = 2
+form='^\{"case": "brick", "law": "parallel", "particles": 1024, "bonds": 2752, "ranks": [12], "ns_per_bond_step": [0-9]+\.[0-9]+, "bytes_per_bond": [0-9]+\}$'
+check "form of the lines: $out" test "$(grep -cE "$form" <<< "$out")" = 2
+# A bond holds two tags and some eight doubles at the very least, and is computed in no less than a
+# nanosecond; a cut bond is stored twice.
+values=$(sed -E 's/.*step": ([0-9.]+), "bytes_per_bond": ([0-9]+).*/\1 \2/' <<< "$out")
+check "figures are possible: $values" \
+  awk '$1 < 1 || $2 < 72 || $2 > 2000 { bad = 1 } END { exit bad }' <<< "$values"
+
+expect_error 1 "no packing of 'nowhere'" "BONDLAB_PACKINGS" -- bench --case=nowhere
+expect_error 1 "unknown argument '--fast'" -- bench --fast
+expect_error 1 "'0' is not a whole number" -- bench --repeats=0
+expect_error 1 "'two' is not a whole number" -- bench --ranks=1,two
+expect_error 1 "$scratch/none is not there" -- bench --program="$scratch/none"
+capture bench --json --case=brick --ranks=1 --law=no_such_law
+check "an unknown law is an error: $err" grep -q "the engine failed: ERROR.*bond style" <<< "$err"
+check "and prints no case: $out" test -z "$out"
+echo "0 1024" >> "$scratch/brick.bonds"
+capture bench --json --case=brick --ranks=1
+check "a bond to no particle is an error: $out $err" test $status = 1
+
+finish
