@@ -133,8 +133,9 @@ TEST(ExactSum, ManyNumbersOfLargestLimb) {
 }
 
 TEST(ExactSum, CarriesAreMovedBeforeALimbOverflows) {
-  // Beyond 2^31 additions of 2^32 - 1 a limb of int64 would overflow if carries were never moved.
-  const double x = 4294967295.0;
+  // A number that is one full limb, 2^32 - 1 on a limb's boundary: after 2^31 additions a limb of
+  // int64 would overflow if carries were never moved.
+  const double x = std::ldexp(4294967295.0, 32 * 34 - 1074);
   ExactSum s;
   const std::uint64_t count = (std::uint64_t(1) << 31) + 5;
   for (std::uint64_t k = 0; k < count; ++k) s.add(x);

@@ -140,6 +140,9 @@ TEST(Extent, CoversParticlesWithTheirRadii) {
   e.add(-2.0, 0.5);
   EXPECT_EQ(e.lo, -2.5);
   EXPECT_EQ(e.hi, 1.25);
+  e.add(-1.5, 3.0);  // reaches beyond both, its centre doesn't
+  EXPECT_EQ(e.lo, -4.5);
+  EXPECT_EQ(e.hi, 1.5);
 }
 
 }  // namespace

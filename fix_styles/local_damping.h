@@ -21,7 +21,7 @@
 namespace bondlab {
 
 inline double locally_damped(double force, double velocity, double alpha) {
-  const double against = std::copysign(std::fabs(force) * alpha, velocity);
+  const double against = std::copysign(alpha * force, velocity);  // of size |alpha F|
   return force - (velocity == 0.0 ? 0.0 : against);
 }
 
