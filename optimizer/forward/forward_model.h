@@ -35,6 +35,7 @@ enum class FailureCause {
   no_progress,
   truncated_output,
   missing_output,
+  bad_output,  // not readable as the format, or a column that responses need is missing
   launcher,
   specimen
 };
@@ -46,6 +47,7 @@ struct Failure {
   std::string message;        // one or two sentences, with the deck's file and line or the engine's words where known
   std::string run_directory;  // kept
   std::string command;        // replays the run
+  std::string log_tail;       // last lines of what the engine wrote
 };
 
 struct ForwardOutcome {

@@ -104,7 +104,11 @@ TEST_P(PlantedErrors, IsReportedWithItsPlaceAndWhatIsAllowed) {
   } catch (const UserError &error) {
     messages = without_folder(error.what());
   }
-  EXPECT_EQ(messages, join(planted.messages, "\n")) << planted.title;
+  const std::string expected = join(planted.messages, "\n");
+  if (expected.back() == '*')  // the rest of the sentence belongs to another room
+    EXPECT_EQ(messages.substr(0, expected.size() - 1), expected.substr(0, expected.size() - 1)) << planted.title << "\n" << messages;
+  else
+    EXPECT_EQ(messages, expected) << planted.title;
 }
 
 INSTANTIATE_TEST_SUITE_P(Planted, PlantedErrors, testing::ValuesIn(planted_errors()), [](const auto &info) {

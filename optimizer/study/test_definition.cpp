@@ -2,6 +2,7 @@
 #include "study/test_definition.h"
 
 #include <algorithm>
+#include <charconv>
 #include <sstream>
 
 #include "base/table_file.h"
@@ -108,6 +109,7 @@ TestDefinition read_test_definition(const std::filesystem::path &folder, ErrorCo
     TomlTable outputs(*table, "[outputs]", file, errors);
     if (outputs.has("curve")) definition.curve = outputs.text("curve", true);
     definition.columns = outputs.words("columns");
+    definition.keep = outputs.words("keep");
     if (outputs.has("events")) definition.events = outputs.text("events");
     if (outputs.has("particles")) definition.particles = outputs.text("particles");
     outputs.finish();
@@ -135,7 +137,15 @@ TestDefinition read_test_definition(const std::filesystem::path &folder, ErrorCo
   return definition;
 }
 
-double deck_number(const DeckVariable &variable, double value) { return from_si(value, variable.unit); }
+double deck_number(const DeckVariable &variable, double value) {
+  const double exact = from_si(value, variable.unit);
+  // 30 deg went to SI and comes back as 29.999999999999996: fifteen digits are what the user wrote, if they mean the same.
+  char buffer[40];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, exact, std::chars_format::scientific, 14).ptr;
+  double rounded = exact;
+  std::from_chars(buffer, end, rounded);
+  return to_si(rounded, variable.unit) == value ? rounded : exact;
+}
 
 std::string why_not_allowed(const DeckVariable &variable, double value) {
   if (!variable.choices.empty()) return "it takes a word: " + join(variable.choices);

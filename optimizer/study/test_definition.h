@@ -44,6 +44,7 @@ struct TestDefinition {
   std::map<std::string, std::string> deck_defaults;  // every `variable NAME index DEFAULT` of the deck
   std::map<std::string, ResponseDefinition> responses;
   std::string curve = "curve.tsv", events = "broken_bonds.tsv", particles = "particles_end.txt";  // names in the run directory
+  std::vector<std::string> keep;     // further files of a run to keep
   std::vector<std::string> columns;  // the curve must have; empty: any
   std::vector<std::string> shapes;  // specimens it can hold; empty: any
 };
