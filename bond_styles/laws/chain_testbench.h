@@ -27,6 +27,7 @@ struct Grain {
   Vec3 x{0, 0, 0}, v{0, 0, 0}, w{0, 0, 0};  // m, m/s, rad/s
   Vec3 f{0, 0, 0}, t{0, 0, 0};              // N, N m, after load()
   Vec3 pull{0, 0, 0}, turn{0, 0, 0};        // constant external load, N, N m
+  Vec3 turned{0, 0, 0};                     // sum of the small rotations of all steps, rad
   double radius = 0.0, mass = 0.0, inertia = 0.0;
   bool held = false;  // neither moves nor turns by itself
 };
@@ -69,6 +70,7 @@ class Bench {
   std::vector<Grain> grains;
   std::vector<PairRow> pairs;
   double viscous = 0.0;  // 1/s, damping proportional to mass
+  bool transverse_only = false;  // grains move along y and turn about z only
 
   bool flat() const { return flat_; }
   double thickness() const { return thickness_; }
@@ -141,7 +143,10 @@ class Bench {
   // Velocity Verlet. Forces must be known: call load(0, false) once before the first step.
   void step(double dt) {
     kick(0.5 * dt);
-    for (Grain &g : grains) g.x = g.x + dt * g.v;
+    for (Grain &g : grains) {
+      g.x = g.x + dt * g.v;
+      g.turned = g.turned + dt * g.w;
+    }
     load(dt);
     kick(0.5 * dt);
   }
@@ -203,7 +208,8 @@ class Bench {
       if (g.held) continue;
       g.v = keep * g.v + (half / g.mass) * g.f;
       g.w = keep * g.w + (half / g.inertia) * g.t;
-      if (flat_) g.w.x = g.w.y = g.v.z = 0.0;
+      if (flat_ || transverse_only) g.w.x = g.w.y = g.v.z = 0.0;
+      if (transverse_only) g.v.x = 0.0;
     }
   }
 
