@@ -85,6 +85,7 @@ TEST(Pitfall, bond_force_is_dropped_not_transferred) {
     PairRow &other = alone.pairs[0];
     other.alive = other.mt = 0.0;
     other.fs = other.mb = {0, 0, 0};
+    other.rest = alone.distance(0, 1);
     b.load(1e-7);
     alone.load(1e-7);
     EXPECT_EQ(row.fate, BondFate::broken_in_shear);
