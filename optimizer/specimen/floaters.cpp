@@ -85,7 +85,7 @@ Move best_vertex(const std::vector<Constraint> &constraints, int dimension) {
 
 // Distances and directions to all surfaces around a point; returns the smallest distance.
 double look_around(const Container &container, const std::vector<Particle> &particles,
-                   const std::vector<int> &obstacles, const Particle &at, double reach,
+                   const std::vector<int> &obstacles, const Particle &at,
                    std::vector<Constraint> *surfaces) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const int j : obstacles) {
@@ -95,7 +95,7 @@ double look_around(const Container &container, const std::vector<Particle> &part
     nearest = std::min(nearest, d - b.r);
     if (surfaces && d > 0) surfaces->push_back({{dx / d, dy / d, dz / d}, 1, d - b.r});
   }
-  container.walls_within(at.x, at.y, at.z, reach,
+  container.walls_within(at.x, at.y, at.z, std::numeric_limits<double>::infinity(),
                          [&](double distance, double nx, double ny, double nz, int) {
                            nearest = std::min(nearest, distance);
                            if (surfaces) surfaces->push_back({{nx, ny, nz}, 1, distance});
@@ -105,33 +105,32 @@ double look_around(const Container &container, const std::vector<Particle> &part
 
 }  // namespace
 
+std::vector<bool> find_unloaded(const Container &container, const std::vector<Particle> &particles,
+                                double load) {
+  const PairList loaded = find_pairs(particles, -load);
+  std::vector<bool> unloaded(particles.size(), true);
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    for (std::size_t k = loaded.start[i]; k < loaded.start[i + 1]; ++k)
+      unloaded[i] = unloaded[static_cast<std::size_t>(loaded.other[k])] = false;
+    const Particle &p = particles[i];
+    container.walls_within(p.x, p.y, p.z, p.r - load,
+                           [&](double, double, double, double, int) { unloaded[i] = false; });
+  }
+  return unloaded;
+}
+
 std::vector<bool> find_floaters(const Container &container, const std::vector<Particle> &particles,
-                                double touch) {
+                                double gap) {
   const std::size_t n = particles.size();
   const int needed = container.dimension() + 1;
-  const PairList full = both_ways(find_pairs(particles, -touch));
-  std::vector<int> contacts(n, 0);
+  const PairList full = both_ways(find_pairs(particles, gap));
   std::vector<bool> floats(n, false);
-  std::vector<int> to_do;
   for (std::size_t i = 0; i < n; ++i) {
     const Particle &p = particles[i];
-    contacts[i] = static_cast<int>(full.start[i + 1] - full.start[i]);
-    container.walls_within(p.x, p.y, p.z, p.r - touch,
-                           [&](double, double, double, double, int) { ++contacts[i]; });
-    if (contacts[i] < needed) {
-      floats[i] = true;
-      to_do.push_back(static_cast<int>(i));
-    }
-  }
-  while (!to_do.empty()) {  // a particle held only by floaters is one too
-    const int i = to_do.back();
-    to_do.pop_back();
-    for (std::size_t k = full.start[i]; k < full.start[i + 1]; ++k) {
-      const int j = full.other[k];
-      if (floats[j] || --contacts[j] >= needed) continue;
-      floats[j] = true;
-      to_do.push_back(j);
-    }
+    int contacts = static_cast<int>(full.start[i + 1] - full.start[i]);
+    container.walls_within(p.x, p.y, p.z, p.r + gap,
+                           [&](double, double, double, double, int) { ++contacts; });
+    floats[i] = contacts < needed;
   }
   return floats;
 }
@@ -144,8 +143,7 @@ double climb_to_largest_hole(const Container &container, const std::vector<Parti
   std::vector<Constraint> surfaces, active;
   for (int round = 0; round < 100 && box > smallest_box; ++round) {
     surfaces.clear();
-    const double reach = 3 * floater.r;
-    const double now = look_around(container, particles, obstacles, floater, reach, &surfaces);
+    const double now = look_around(container, particles, obstacles, floater, &surfaces);
     active.clear();
     for (const Constraint &c : surfaces)  // the others can't become the nearest within the box
       if (c.distance <= now + 2 * box * std::sqrt(static_cast<double>(dimension)))
@@ -163,12 +161,12 @@ double climb_to_largest_hole(const Container &container, const std::vector<Parti
     moved.x += move.h[0];
     moved.y += move.h[1];
     if (dimension == 3) moved.z += move.h[2];
-    if (look_around(container, particles, obstacles, moved, reach, nullptr) > now)
+    if (look_around(container, particles, obstacles, moved, nullptr) > now)
       floater = moved;
     else
       box *= 0.25;
   }
-  return look_around(container, particles, obstacles, floater, 3 * floater.r, nullptr);
+  return look_around(container, particles, obstacles, floater, nullptr);
 }
 
 int seat_floaters(const Container &container, std::vector<Particle> &particles,

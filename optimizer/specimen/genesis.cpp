@@ -26,10 +26,12 @@ constexpr double coarse_overlap = 1e-3;     // the overlap at which the count is
 constexpr double allowed_size_error =
     4e-3;  // of the radii at that overlap, else the count is corrected
 constexpr int most_counts = 4;
-constexpr int relaxed_growths = 3;       // rounds of seating floaters with relaxation between them
-constexpr int most_growths = 200;        // rounds of seating what is left, without
-constexpr double largest_growth = 1.15;  // of a floater, over r_max
-constexpr int most_steps = 5000;         // of one minimisation
+constexpr int least_relaxed_growths = 3,
+              most_relaxed_growths = 10;  // seating floaters and relaxing
+constexpr int most_growths = 200;         // rounds of seating what is left, without
+constexpr double largest_growth = 1.15;   // of a floater, over r_max
+constexpr double no_load = 0.02, faint_load = 0.2, any_load = 1e9;  // of the mean overlap
+constexpr int most_steps = 5000;                                    // of one minimisation
 constexpr double coarse_tolerance = 1e-2, fine_tolerance = 2e-3;
 
 struct Packing {
@@ -139,34 +141,51 @@ int seat(Packing &packing, const std::vector<bool> &floaters, double overlap, do
   return seat_floaters(packing.box, packing.particles, floaters, overlap, largest_growth * r_max);
 }
 
+// Particles with no load to speak of, and those with less than it but too few contacts: bridges of
+// two contacts that are about to buckle.
+std::vector<bool> floaters_of(const Packing &packing, double overlap, double bridge_load) {
+  std::vector<bool> floaters = find_unloaded(packing.box, packing.particles, no_load * overlap);
+  const std::vector<bool> faint =
+      find_unloaded(packing.box, packing.particles, bridge_load * overlap);
+  const std::vector<bool> loose =
+      find_floaters(packing.box, packing.particles, 0.5 * coordination_gaps[0]);
+  for (std::size_t i = 0; i < floaters.size(); ++i)
+    floaters[i] = floaters[i] || (faint[i] && loose[i]);
+  return floaters;
+}
+
 // Floaters change the sizes, so that a packing relaxed after their growth has new ones: a few
 // rounds of growth and relaxation leave some 2 %, which are then seated exactly, without overlap,
-// and stay where they are.
+// and disturb nothing but the load of the faintest bridges. Rounds go on while there are others.
 int eliminate_floaters(Packing &packing, Relaxation &relaxation, double overlap, double r_max) {
   int grown = 0;
-  for (int round = 0; round < relaxed_growths; ++round) {
-    const std::vector<bool> floaters =
-        find_floaters(packing.box, packing.particles, 0.01 * overlap);
-    const int seated = seat(packing, floaters, overlap, r_max * packing.size_factor);
+  std::vector<bool> floaters;
+  for (int round = 0; round < most_relaxed_growths; ++round) {
+    const std::vector<bool> all = floaters_of(packing, overlap, any_load);
+    floaters = floaters_of(packing, overlap, faint_load);
+    if (round >= least_relaxed_growths && all == floaters) break;
+    const int seated = seat(packing, all, overlap, r_max * packing.size_factor);
     if (seated == 0) return grown;
     grown = std::max(grown, seated);
     reach_overlap(packing, relaxation, overlap, fine_tolerance);
+    floaters = floaters_of(packing, overlap, faint_load);
   }
+  const std::vector<bool> faint =
+      find_unloaded(packing.box, packing.particles, faint_load * overlap);
   // Seating one can take a contact from another that is seated already: repeated until all touch.
-  const double touch = coordination_gaps[0];
   for (int round = 0; round < most_growths; ++round) {
-    const double reach = round == 0 ? 0.01 * overlap : -0.5 * touch;
-    if (seat(packing, find_floaters(packing.box, packing.particles, reach), 0,
-             r_max * packing.size_factor) == 0)
-      break;
+    if (seat(packing, floaters, 0, r_max * packing.size_factor) == 0) break;
+    floaters = find_floaters(packing.box, packing.particles, 0.5 * coordination_gaps[0]);
+    for (std::size_t i = 0; i < floaters.size(); ++i) floaters[i] = floaters[i] && faint[i];
   }
   return grown;
 }
 
 }  // namespace
 
-Specimen make_specimen(const SpecimenRequest &request, const SpecimenProgressCallback &progress) {
-  check_request(request);
+Specimen make_specimen(const SpecimenRequest &given, const SpecimenProgressCallback &progress) {
+  check_request(given);
+  const SpecimenRequest request = canonical_request(given);
   const auto tell = [&](const char *stage, double fraction) {
     if (progress) progress({stage, fraction});
   };

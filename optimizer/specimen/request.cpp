@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <charconv>
 #include <cmath>
 
 #include "base/units.h"
@@ -70,7 +71,18 @@ void check_request(const SpecimenRequest &request) {
                     " (allowed: at most that many)");
 }
 
-std::string canonical_text(const SpecimenRequest &request) {
+SpecimenRequest canonical_request(const SpecimenRequest &request) {
+  SpecimenRequest rounded = request;
+  for (double *number : {&rounded.width, &rounded.height, &rounded.diameter, &rounded.r_min,
+                         &rounded.r_ratio, &rounded.density, &rounded.overlap}) {
+    const std::string text = format_quantity(*number, "", 12);
+    std::from_chars(text.data(), text.data() + text.size(), *number);
+  }
+  return rounded;
+}
+
+std::string canonical_text(const SpecimenRequest &given) {
+  const SpecimenRequest request = canonical_request(given);
   std::string text = "bondlab specimen 1\ngenerator " + std::string(generator);
   const auto line = [&](const char *name, const std::string &value) {
     text += "\n" + std::string(name) + " " + value;

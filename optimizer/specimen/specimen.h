@@ -61,6 +61,10 @@ using SpecimenProgressCallback = std::function<void(const SpecimenProgress &)>;
 // Throws UserErrors with everything that is wrong with a request.
 void check_request(const SpecimenRequest &request);
 
+// The request with its numbers rounded to 12 digits: "0.56 mm" and 0.56e-3 differ in the last bit,
+// and a packing would make that the difference of two seeds.
+SpecimenRequest canonical_request(const SpecimenRequest &request);
+
 // The same request gives the same bytes on every machine.
 Specimen make_specimen(const SpecimenRequest &request,
                        const SpecimenProgressCallback &progress = {});

@@ -61,23 +61,26 @@ double eigenvalue_ratio(Tensor tensor, int dimension) {
 double inner_porosity(const Container &container, const std::vector<Particle> &particles,
                       double inset, double r_mean) {
   const int dimension = container.dimension();
-  double spacing = (dimension == 2 ? 0.1 : 0.2) * r_mean;
+  double spacing = (dimension == 2 ? 0.05 : 0.2) * r_mean;
   double lo[3], hi[3];
   container.bounds(lo, hi);
   // A container that is nearly empty (a file gone wrong) must not ask for more points than its
   // particles deserve.
-  const double allowed = 1e6 + 1000 * static_cast<double>(particles.size());
+  const double allowed = 1e6 + 2000 * static_cast<double>(particles.size());
   double points = 1;
   for (int k = 0; k < dimension; ++k) points *= (hi[k] - lo[k]) / spacing;
   if (points > allowed) spacing *= std::pow(points / allowed, 1.0 / dimension);
   long n[3] = {1, 1, 1};
+  double step[3] = {0, 0, 0};
   for (int k = 0; k < dimension; ++k) {
-    n[k] = static_cast<long>((hi[k] - lo[k] - 2 * inset) / spacing);
-    if (n[k] < 1) return 0;
+    const double side = hi[k] - lo[k] - 2 * inset;
+    if (side <= 0) return 0;
+    n[k] = static_cast<long>(std::ceil(side / spacing));
+    step[k] = side / static_cast<double>(n[k]);
     lo[k] += inset;
   }
   const auto at = [&](int k, long i) {
-    return k < dimension ? lo[k] + (static_cast<double>(i) + 0.5) * spacing : 0.0;
+    return lo[k] + (static_cast<double>(i) + 0.5) * step[k];  // z is 0 in 2D
   };
   // 2 outside the inner part, 0 pore, 1 solid
   std::vector<unsigned char> mark(static_cast<std::size_t>(n[0] * n[1] * n[2]));
@@ -85,8 +88,7 @@ double inner_porosity(const Container &container, const std::vector<Particle> &p
   for (long z = 0; z < n[2]; ++z)
     for (long y = 0; y < n[1]; ++y)
       for (long x = 0; x < n[0]; ++x, ++cell) {
-        const bool inside =
-            container.depth(at(0, x), at(1, y), dimension == 3 ? at(2, z) : 0) >= inset;
+        const bool inside = container.depth(at(0, x), at(1, y), at(2, z)) >= inset;
         mark[cell] = inside ? 0 : 2;
         total += inside;
       }
@@ -94,15 +96,14 @@ double inner_porosity(const Container &container, const std::vector<Particle> &p
     const double centre[3] = {p.x, p.y, p.z};
     long first[3] = {0, 0, 0}, last[3] = {0, 0, 0};
     for (int k = 0; k < dimension; ++k) {
-      first[k] = std::max(0L, static_cast<long>(std::floor((centre[k] - p.r - lo[k]) / spacing)));
-      last[k] =
-          std::min(n[k] - 1, static_cast<long>(std::ceil((centre[k] + p.r - lo[k]) / spacing)));
+      const double end = static_cast<double>(n[k]);  // clamped before the cast: places may be wild
+      first[k] = static_cast<long>(std::clamp((centre[k] - p.r - lo[k]) / step[k], 0.0, end));
+      last[k] = static_cast<long>(std::clamp((centre[k] + p.r - lo[k]) / step[k], -1.0, end - 1));
     }
     for (long z = first[2]; z <= last[2]; ++z)
       for (long y = first[1]; y <= last[1]; ++y)
         for (long x = first[0]; x <= last[0]; ++x) {
-          const double dx = at(0, x) - p.x, dy = at(1, y) - p.y,
-                       dz = dimension == 3 ? at(2, z) - p.z : 0;
+          const double dx = at(0, x) - p.x, dy = at(1, y) - p.y, dz = at(2, z) - p.z;
           unsigned char &m = mark[static_cast<std::size_t>((z * n[1] + y) * n[0] + x)];
           if (m != 0 || dx * dx + dy * dy + dz * dz >= p.r * p.r) continue;
           m = 1;
@@ -201,7 +202,7 @@ SpecimenStatistics measure_packing(const Container &container,
   measure_contacts(container, particles, near, inset, bond_gap * s.r_mean, s);
 
   const double touch = coordination_gaps[0] * s.r_mean;
-  for (const bool floats : find_floaters(container, particles, -touch)) s.floaters += floats;
+  for (const bool floats : find_floaters(container, particles, touch)) s.floaters += floats;
   for (const Particle &p : particles) {
     container.walls_within(p.x, p.y, p.z, p.r + touch,
                            [&](double, double, double, double, int wall) {
