@@ -88,7 +88,10 @@ class GraniteEmulator : public ForwardModel {
     outcome.deck_variables["thickness"] = 1;
     const FailureCause cause = fail ? fail(request) : FailureCause::none;
     if (cause != FailureCause::none) {
-      outcome.failure = {cause, "planted failure", outcome.run_directory, outcome.replay_command};
+      outcome.failure.cause = cause;
+      outcome.failure.message = "planted failure";
+      outcome.failure.run_directory = outcome.run_directory;
+      outcome.failure.command = outcome.replay_command;
       return outcome;
     }
     MacroFigures f = law(request.variables);

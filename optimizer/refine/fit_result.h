@@ -54,7 +54,7 @@ struct HistoryEntry {
   std::string note;
 };
 
-struct PackingRow {
+struct PackingScatter {
   std::string target, unit;
   double reference = 0;             // on the packing used in the fit
   std::vector<double> values;       // one a packing that worked
@@ -106,7 +106,7 @@ struct SingleFit {
   std::vector<ParameterResult> parameters;
   std::vector<std::vector<double>> correlation;  // of the parameters in transformed space; empty: not known
   std::vector<HistoryEntry> history;
-  std::vector<PackingRow> packings;
+  std::vector<PackingScatter> packings;
   std::vector<TestOutcome> best;            // one a test, on the packing used in the fit
   std::vector<Finding> findings;
   std::vector<std::string> notes;           // what was done and why, plain words, in order

@@ -45,9 +45,9 @@ TargetResult target_result(const Evaluator &evaluator, std::size_t index, double
   return result;
 }
 
-PackingRow packing_row(const Evaluator &evaluator, std::size_t index, const TransformedPoint &point) {
+PackingScatter packing_scatter(const Evaluator &evaluator, std::size_t index, const TransformedPoint &point) {
   const auto &target = evaluator.study().targets[index];
-  PackingRow row;
+  PackingScatter row;
   row.target = target.name;
   row.unit = target.unit;
   row.reference = evaluator.value(point, index).value;
@@ -210,7 +210,7 @@ void summarise(const Evaluator &evaluator, const FitEntry &entry, const FitProbl
   for (std::size_t i = 0; i < all.size(); ++i) {
     const bool in_fit = i < problem.targets.size();
     auto target = target_result(evaluator, all[i], noise[all[i]], found.point, in_fit);
-    auto row = packing_row(evaluator, all[i], found.point);
+    auto row = packing_scatter(evaluator, all[i], found.point);
     target.packing_mean = row.mean;
     target.packing_sd = row.sd;
     if (in_fit && !target.met) result.all_met = false;
