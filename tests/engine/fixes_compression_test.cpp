@@ -87,15 +87,18 @@ TEST(Compression, RanksGiveTheSameBits) {
 }
 
 TEST(Compression, RestartedRunLeavesTheFilesOfTheUninterruptedOne) {
+  const std::string data = "read_data particles.data\nreset_timestep 700\n";  // clocks start late
   EngineFolder whole;
   write_brick(whole);
   CompressionDeck deck;
+  deck.start = data;
   deck.run = "run 6000\n";
   ASSERT_TRUE(run_deck(whole, deck.text()).ok());
 
   EngineFolder parts;
   write_brick(parts);
   CompressionDeck first;  // a restart, then rows that the restarted run must replace
+  first.start = data;
   first.run = "run 3270\nwrite_restart middle.restart\nrun 500\n";
   EngineResult r = run_deck(parts, first.text(), 2);
   ASSERT_TRUE(r.ok()) << r.screen;

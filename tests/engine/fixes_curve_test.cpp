@@ -43,6 +43,8 @@ TEST(FixCurve, LaterRunsGoOnAndOnlyTheLastLineSaysComplete) {
   const Table t = read_table(folder.file("curve.tsv"));
   EXPECT_EQ(t.column("step"), (std::vector<double>{0, 20, 40, 60, 80}));
   EXPECT_EQ(t.completion, "end_of_run");
+  const std::string text = folder.read("curve.tsv");
+  EXPECT_EQ(text.find("# complete"), text.rfind("# complete"));
 }
 
 TEST(FixCurve, AKilledRunIsNotComplete) {

@@ -3,7 +3,9 @@
 // fix gauge in the engine: exact under a homogeneous strain, kept through a restart.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fixes_deck.h"
 
@@ -36,6 +38,31 @@ std::vector<Particle> cylinder() {
   return all;
 }
 
+// Particles of the outer shell between two heights, found without the code under test.
+int shell_count(const std::vector<Particle> &all, double low, double high, double depth) {
+  const auto extent = [&](auto place, auto wanted) {
+    double lo = 1e9, hi = -1e9;
+    for (const Particle &p : all)
+      if (wanted(p)) lo = std::min(lo, place(p) - p.radius), hi = std::max(hi, place(p) + p.radius);
+    return std::make_pair(lo, hi);
+  };
+  const auto ends =
+      extent([](const Particle &p) { return p.z; }, [](const Particle &) { return true; });
+  const auto in_section = [&](const Particle &p) {
+    const double fraction = (p.z - ends.first) / (ends.second - ends.first);
+    return fraction >= low && fraction <= high;
+  };
+  const auto ex = extent([](const Particle &p) { return p.x; }, in_section);
+  const auto ey = extent([](const Particle &p) { return p.y; }, in_section);
+  const auto off_axis = [&](const Particle &p) {
+    return std::hypot(p.x - 0.5 * (ex.first + ex.second), p.y - 0.5 * (ey.first + ey.second));
+  };
+  const double surface = extent(off_axis, in_section).second;
+  return static_cast<int>(std::count_if(all.begin(), all.end(), [&](const Particle &p) {
+    return in_section(p) && off_axis(p) >= surface - depth;
+  }));
+}
+
 TEST(FixGauge, ExactUnderHomogeneousStrainInThePlane) {
   EngineFolder folder;
   folder.write("particles.data", data_file(brick(10, 20, 1e-3), 2, 0.06));
@@ -58,7 +85,8 @@ TEST(FixGauge, ExactUnderHomogeneousStrainInThePlane) {
 
 TEST(FixGauge, ExactUnderHomogeneousStrainOfACylinder) {
   EngineFolder folder;
-  folder.write("particles.data", data_file(cylinder(), 3, 0.06));
+  const std::vector<Particle> particles = cylinder();
+  folder.write("particles.data", data_file(particles, 3, 0.06));
   std::string one;
   for (int ranks : {1, 2, 4}) {
     const EngineResult r = run_deck(
@@ -71,6 +99,7 @@ TEST(FixGauge, ExactUnderHomogeneousStrainOfACylinder) {
     const Table t = read_table(folder.file("curve.tsv"));
     EXPECT_NEAR(t.last("axial"), 1e-3, 1e-13);
     EXPECT_NEAR(t.last("lateral"), 2.5e-4, 1e-13);
+    EXPECT_EQ(t.last("flank"), shell_count(particles, 0.2, 0.8, 3e-3));
     if (ranks == 1) one = folder.read("curve.tsv");
     EXPECT_EQ(folder.read("curve.tsv"), one) << ranks << " ranks";
   }
@@ -95,22 +124,32 @@ TEST(FixGauge, ExtentMayBeGiven) {
 }
 
 TEST(FixGauge, KeepsItsLayersThroughARestart) {
-  // After the restart particles have moved; a gauge that looked again would find another extent.
+  // The lowest rows are lost before the restart; a gauge that looked again would find another
+  // extent.
   EngineFolder folder;
   folder.write("particles.data", data_file(brick(10, 20, 1e-3), 2, 0.06));
   const std::string gauge =
       "fix g all gauge axial y layers 0.25 0.75 thickness 4e-3 lateral x strip 3e-3\n";
-  EngineResult r = run_deck(folder, few_particles(2, 1e-8) + gauge + stretch(2.5e-4, -1e-3, 0) +
-                                        columns + "run 0\nwrite_restart a.restart\n");
+  EngineResult r =
+      run_deck(folder, few_particles(2, 1e-8) + gauge + stretch(2.5e-4, -1e-3, 0) + columns +
+                           "run 0\ngroup end id 1:30\n"
+                           "delete_atoms group end compress no\n"
+                           "write_restart a.restart\n");
   ASSERT_TRUE(r.ok()) << r.screen;
   const Table before = read_table(folder.file("curve.tsv"));
-  r = run_deck(folder,
-               "newton off\nread_restart a.restart\nneighbor 0.001 bin\npair_style grain\n"
-               "pair_coeff * * 1e9 2 0.5\n" +
-                   gauge + columns + "run 0\n");
+  const std::string restart =
+      "newton off\nread_restart a.restart\nneighbor 0.001 bin\npair_style grain\n"
+      "pair_coeff * * 1e9 2 0.5\n";
+  r = run_deck(folder, restart + gauge + columns + "run 0\n");
   ASSERT_TRUE(r.ok()) << r.screen;
-  const Table after = read_table(folder.file("curve.tsv"));
-  EXPECT_EQ(before.rows, after.rows);
+  EXPECT_EQ(before.rows, read_table(folder.file("curve.tsv")).rows);
+  // Under another name it does look again.
+  r = run_deck(folder, restart + "fix h" + gauge.substr(5) +
+                           "fix curve all curve 1 curve.tsv flank 1 "
+                           "f_h[5] axial 1 f_h[1]\nrun 0\n");
+  ASSERT_TRUE(r.ok()) << r.screen;
+  EXPECT_NEAR(read_table(folder.file("curve.tsv")).last("axial"), 1e-3, 1e-13);
+  EXPECT_NE(read_table(folder.file("curve.tsv")).last("flank"), before.last("flank"));
 }
 
 TEST(FixGauge, AnEmptyLayerIsAnError) {

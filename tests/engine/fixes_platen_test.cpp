@@ -206,6 +206,53 @@ TEST(FixPlaten, ServoReachesAndHoldsItsForce) {
   EXPECT_EQ(t.column("v").front(), 0.0);
 }
 
+TEST(FixPlaten, ServoDoesNotDependOnWhatIsWritten) {
+  // The force it works on is that of every step, asked for or not.
+  std::vector<double> last;
+  for (const std::string every : {"1", "50", "1000"}) {
+    EngineFolder folder;
+    folder.write("particles.data", data_file({{0, 1e-3, 0}}, 3, 0.01));
+    const Table t =
+        run_one(folder, few_particles(3, 2e-7) +
+                            "fix move all nve/bonded\n"
+                            "fix bottom all platen plane 0 0 0 0 1 0 modulus 1e9\n"
+                            "fix top all platen plane 0 2e-3 0 0 -1 0 modulus 1e9 servo "
+                            "fy 20 gain 1e-3 vmax 0.05\nfix curve all curve " +
+                            every + " curve.tsv d m f_top[8] top N f_top[2]\nrun 1000\n");
+    last.push_back(t.last("d"));
+  }
+  EXPECT_EQ(last[0], last[1]);
+  EXPECT_EQ(last[0], last[2]);
+}
+
+TEST(FixPlaten, ShearSpringsMigrateWithTheirParticle) {
+  // A sphere gripped by two platens that carry it from one rank to another, while the springs that
+  // started it swing on: the same bits on one rank and on two.
+  std::string one;
+  for (int ranks : {1, 2}) {
+    EngineFolder folder;
+    folder.write("particles.data", data_file({{-0.3e-3, 0, 0}, {-0.009, 0, 0.005}}, 3, 0.01));
+    const std::string grip = " modulus 1e9 ratio 2 friction 5 velocity 2 0 0 ramp 1e-4\n";
+    run_one(folder,
+            "processors " + std::to_string(ranks) + " 1 1\n" + few_particles(3, 2e-7) +
+                "group gripped id 1\nfix move all nve/bonded\n"
+                "fix p gripped platen plane 0 -0.95e-3 0 0 1 0" +
+                grip + "fix q gripped platen plane 0 0.95e-3 0 0 -1 0" + grip +
+                "variable x equal x[1]\n"
+                "fix curve all curve 1 curve.tsv x m v_x px N f_p[1] py N f_p[2]\nrun 4000\n",
+            ranks);
+    if (ranks == 1) one = folder.read("curve.tsv");
+    ASSERT_EQ(folder.read("curve.tsv"), one);
+    const Table t = read_table(folder.file("curve.tsv"));
+    ASSERT_GT(t.last("x"), 0.5e-3);  // beyond the boundary at 0, by more than half the skin
+    double swing = 0.0;
+    const auto px = t.column("px");
+    for (std::size_t k = px.size() - 500; k < px.size(); ++k)
+      swing = std::fmax(swing, std::fabs(px[k]));
+    ASSERT_GT(swing, 1e-3);
+  }
+}
+
 TEST(FixPlaten, AChangeOfTheTimeStepDoesNotJerkThePlaten) {
   EngineFolder folder;
   folder.write("particles.data", data_file({{0, 0.005, 0}}, 3, 0.01));
