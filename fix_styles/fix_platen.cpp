@@ -3,6 +3,7 @@
 // fix_platen_io.cpp.
 #include "fix_platen.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -123,47 +124,62 @@ void FixPlaten::post_force(int) {
   if (servo_ >= 0) reduce();
 }
 
+// Few particles touch: a quick sweep finds them, and those that have just ceased to.
 void FixPlaten::apply(bool advance) {
-  sums_.clear();
+  parts_.clear();
   reduced_ = false;
-  const double dt = update->dt;
-  double **x = atom->x, **v = atom->v, **w = atom->omega, **f = atom->f, **t = atom->torque;
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
-    const Vec3 centre = vec(x[i]);
-    const double radius = atom->radius[i];
-    const PlatenTouch at = bondlab::touch(now_, centre, radius);
-    double *h = history_[i];
-    if (at.gap >= 0.0) {
-      if (advance) std::fill(h, h + 6, 0.0);
-      continue;
-    }
-    const double kn = stiffness_.normal(radius);
-    const Vec3 arm = at.point - centre;
-    const Vec3 motion = dt * (vec(v[i]) + bondlab::cross(vec(w[i]), arm)) - step_motion_;
-    PlatenHistory history{vec(h), vec(h + 3)};
-    const PlatenForce on = bondlab::platen_force({kn, kn / ratio_, friction_}, -at.gap, at.normal,
-                                                 motion, advance, history);
-    if (advance) {
-      const double state[6] = {history.shear.x,  history.shear.y,  history.shear.z,
-                               history.normal.x, history.normal.y, history.normal.z};
-      std::copy(state, state + 6, h);
-    }
-    const Vec3 turn = bondlab::cross(arm, on.force);
-    f[i][0] += on.force.x, f[i][1] += on.force.y, f[i][2] += on.force.z;
-    t[i][0] += turn.x, t[i][1] += turn.y, t[i][2] += turn.z;
-
-    const Vec3 moment = bondlab::cross(at.point - now_.point, on.force);
-    const double parts[SUMS] = {-on.force.x, -on.force.y, -on.force.z, -moment.x,
-                                -moment.y,   -moment.z,   1.0,         on.energy};
-    for (int k = 0; k < SUMS; k++) sums_.add(k, parts[k]);
+  const std::size_t n = atom->nlocal;
+  if (n == 0) return;
+  near_.resize(atom->nmax);
+  bondlab::mark_near(now_, atom->x[0], atom->radius, n, near_.data());
+  for (std::size_t i = 0; i < n; i++) near_[i] |= touching_[i];
+  const unsigned char *mark = near_.data(), *end = mark + n;
+  while ((mark = static_cast<const unsigned char *>(std::memchr(mark, 1, end - mark)))) {
+    apply_to(static_cast<int>(mark - near_.data()), advance);
+    if (++mark == end) break;
   }
 }
 
+void FixPlaten::apply_to(int i, bool advance) {
+  if (!(atom->mask[i] & groupbit)) return;
+  const double dt = update->dt;
+  const Vec3 centre = vec(atom->x[i]);
+  const double radius = atom->radius[i];
+  const PlatenTouch at = bondlab::touch(now_, centre, radius);
+  double *h = history_[i], *f = atom->f[i], *t = atom->torque[i];
+  if (at.gap >= 0.0) {
+    if (advance) set_arrays(i);
+    return;
+  }
+  const double kn = stiffness_.normal(radius);
+  const Vec3 arm = at.point - centre;
+  const Vec3 motion =
+      dt * (vec(atom->v[i]) + bondlab::cross(vec(atom->omega[i]), arm)) - step_motion_;
+  PlatenHistory history{vec(h), vec(h + 3)};
+  const PlatenForce on = bondlab::platen_force({kn, kn / ratio_, friction_}, -at.gap, at.normal,
+                                               motion, advance, history);
+  if (advance) {
+    const double state[6] = {history.shear.x,  history.shear.y,  history.shear.z,
+                             history.normal.x, history.normal.y, history.normal.z};
+    std::copy(state, state + 6, h);
+    touching_[i] = 1;
+  }
+  const Vec3 turn = bondlab::cross(arm, on.force);
+  f[0] += on.force.x, f[1] += on.force.y, f[2] += on.force.z;
+  t[0] += turn.x, t[1] += turn.y, t[2] += turn.z;
+
+  const Vec3 moment = bondlab::cross(at.point - now_.point, on.force);
+  parts_.push_back(
+      {-on.force.x, -on.force.y, -on.force.z, -moment.x, -moment.y, -moment.z, 1.0, on.energy});
+}
+
+// Exact sums cost more than the forces themselves, so they are made when somebody asks.
 void FixPlaten::reduce() {
   if (reduced_) return;
   reduced_ = true;
-  bondlab::ExactSums<SUMS> all = sums_;
+  bondlab::ExactSums<SUMS> all;
+  for (const auto &part : parts_)
+    for (int k = 0; k < SUMS; k++) all.add(k, part[k]);
   bondlab::sum_over_ranks(all, world);
   for (int k = 0; k < SUMS; k++) total_[k] = all.value(k);
   for (int c = 0; c < 3; c++) force_[c] = total_[FORCE + c];

@@ -23,6 +23,9 @@ FixStyle(platen,FixPlaten)
 #ifndef BONDLAB_FIX_PLATEN_H
 #define BONDLAB_FIX_PLATEN_H
 
+#include <array>
+#include <vector>
+
 #include "exact_sum.h"
 #include "fix.h"
 #include "platen_geometry.h"
@@ -75,10 +78,12 @@ class FixPlaten : public Fix {
   double servo_speed_;        // m/s
   double force_[3];           // on the platen, N (what the servo works on)
 
-  double **history_;  // [nmax][6]: shear force (N) and normal of PlatenHistory
+  double **history_;         // [nmax][6]: shear force (N) and normal of PlatenHistory
+  unsigned char *touching_;  // [nmax]: 1 if the history isn't empty
+  std::vector<unsigned char> near_;
 
   enum Sum { FORCE = 0, TORQUE = 3, TOUCHING = 6, ENERGY = 7, SUMS = 8 };
-  bondlab::ExactSums<SUMS> sums_;
+  std::vector<std::array<double, SUMS>> parts_;  // of the touching particles, until added up
   double total_[SUMS];
   bool reduced_;
 
@@ -93,6 +98,8 @@ class FixPlaten : public Fix {
   void stand();
   double speed_now(int component) const;
   void apply(bool advance);
+  void apply_to(int i, bool advance);
+  void note_touching(int i);
   void reduce();
 };
 

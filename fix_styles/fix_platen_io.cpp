@@ -57,6 +57,7 @@ FixPlaten::FixPlaten(LAMMPS *lmp, int narg, char **arg)
       servo_speed_(0.0),
       force_{0, 0, 0},
       history_(NULL),
+      touching_(NULL),
       total_{},
       reduced_(true),
       step_motion_{0, 0, 0} {
@@ -83,6 +84,7 @@ FixPlaten::~FixPlaten() {
   atom->delete_callback(id, 0);
   atom->delete_callback(id, 1);
   memory->destroy(history_);
+  memory->destroy(touching_);
 }
 
 void FixPlaten::read_arguments(int narg, char **arg) {
@@ -179,13 +181,25 @@ void FixPlaten::check_arguments(const FixArguments &a) const {
 
 // ---- per-particle arrays ----
 
-void FixPlaten::grow_arrays(int nmax) { memory->grow(history_, nmax, kHistory, "platen:history"); }
+void FixPlaten::grow_arrays(int nmax) {
+  memory->grow(history_, nmax, kHistory, "platen:history");
+  memory->grow(touching_, nmax, "platen:touching");
+}
+
+void FixPlaten::note_touching(int i) {
+  const double *normal = history_[i] + 3;
+  touching_[i] = normal[0] != 0.0 || normal[1] != 0.0 || normal[2] != 0.0;
+}
 
 void FixPlaten::copy_arrays(int i, int j, int) {
   std::copy(history_[i], history_[i] + kHistory, history_[j]);
+  touching_[j] = touching_[i];
 }
 
-void FixPlaten::set_arrays(int i) { std::fill(history_[i], history_[i] + kHistory, 0.0); }
+void FixPlaten::set_arrays(int i) {
+  std::fill(history_[i], history_[i] + kHistory, 0.0);
+  touching_[i] = 0;
+}
 
 int FixPlaten::pack_exchange(int i, double *buf) {
   std::copy(history_[i], history_[i] + kHistory, buf);
@@ -194,6 +208,7 @@ int FixPlaten::pack_exchange(int i, double *buf) {
 
 int FixPlaten::unpack_exchange(int i, double *buf) {
   std::copy(buf, buf + kHistory, history_[i]);
+  note_touching(i);
   return kHistory;
 }
 
@@ -211,10 +226,11 @@ void FixPlaten::unpack_restart(int i, int which) {
   int at = 0;
   for (int k = 0; k < which; k++) at += static_cast<int>(extra[at]);
   std::copy(extra + at + 1, extra + at + 1 + kHistory, history_[i]);
+  note_touching(i);
 }
 
 double FixPlaten::memory_usage() {
-  return static_cast<double>(atom->nmax) * kHistory * sizeof(double);
+  return static_cast<double>(atom->nmax) * (kHistory * sizeof(double) + 2);
 }
 
 // ---- state of the platen ----

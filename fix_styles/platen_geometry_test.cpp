@@ -99,6 +99,46 @@ TEST(PlatenGeometry, OnTheAxisTheNormalIsStillAUnitVector) {
   }
 }
 
+TEST(PlatenGeometry, TheQuickSweepAgreesWithTheGap) {
+  int apart = 0;
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  for (const PlatenGeometry &p : {make(Surface::plane, {0.1, 0.2, 0.3}, {1, 2, 3}, 0, false),
+                                  make(Surface::cylinder, {0.1, 0.2, 0.3}, {1, 2, 3}, 0.4, false),
+                                  make(Surface::cylinder, {0.1, 0.2, 0.3}, {1, 2, 3}, 0.9, true),
+                                  make(Surface::cylinder, {0.1, 0.2, 0.3}, {1, 2, 3}, 0.1, true),
+                                  make(Surface::sphere, {0.1, 0.2, 0.3}, {0, 0, 1}, 0.4, false),
+                                  make(Surface::sphere, {0.1, 0.2, 0.3}, {0, 0, 1}, 0.9, true)}) {
+    const std::size_t n = 1003;
+    std::vector<double> x(3 * n), radius(n);
+    std::vector<unsigned char> near(n, 7);
+    for (double &c : x) c = u(random);
+    for (std::size_t i = 0; i < n; ++i) {
+      radius[i] = 0.2 + 0.1 * u(random);
+      if (i % 3 == 0) {  // put it at touch, a hair off
+        const Vec3 c{x[3 * i], x[3 * i + 1], x[3 * i + 2]};
+        radius[i] += touch(p, c, radius[i]).gap * (1.0 + (i % 2 ? 1e-12 : -1e-12));
+        if (i % 9 == 0) radius[i] *= 1.0 - 1e-7;  // clearly off
+        if (!(radius[i] > 0.0)) radius[i] = 0.2;
+      }
+    }
+    mark_near(p, x.data(), radius.data(), n, near.data());
+    int touching = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double gap = touch(p, {x[3 * i], x[3 * i + 1], x[3 * i + 2]}, radius[i]).gap;
+      if (gap < 0.0) {
+        ++touching;
+        ASSERT_EQ(near[i], 1) << i;
+      } else if (gap > 2e-9 * radius[i]) {
+        ASSERT_EQ(near[i], 0) << i;
+      }
+    }
+    EXPECT_GT(touching, 50);
+    apart += static_cast<int>(n) - touching;
+  }
+  EXPECT_GT(apart, 1000);
+}
+
 TEST(PlatenGeometry, ClosingTheGapMakesItZero) {
   std::vector<PlatenGeometry> platens = {make(Surface::plane, {0, -2, 0}, {0.1, 1, 0}, 0, false),
                                          make(Surface::cylinder, {0, -3, 0}, {0, 0, 1}, 0.5, false),

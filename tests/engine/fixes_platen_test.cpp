@@ -119,6 +119,24 @@ TEST(FixPlaten, FrictionSticksThenSlides) {
   EXPECT_TRUE(stuck && slid);
 }
 
+TEST(FixPlaten, AContactThatOpenedStartsAfresh) {
+  // A held sphere on a sliding platen is lifted for a step and put back: no shear is left.
+  EngineFolder folder;
+  folder.write("particles.data", data_file({{0, 0.9e-3, 0}}, 3, 0.01));
+  const Table t = run_one(folder, few_particles(3, 1e-7) +
+                                      "fix p all platen plane 0 0 0 0 1 0 modulus 1e9 ratio 2 "
+                                      "friction 0.25 velocity 0.1 0 0\n" +
+                                      force_columns +
+                                      "run 100\nset group all y 1.1e-3\nrun 1\n"
+                                      "set group all y 0.9e-3\nrun 10\n");
+  const auto fx = t.column("fx"), step = t.column("step");
+  const double each = stiffness_3d / 2 * 0.1 * 1e-7;
+  ASSERT_EQ(step[100], 100.0);
+  EXPECT_NEAR(fx[100], -100 * each, 1e-9 * each);
+  EXPECT_EQ(fx[101], 0.0);
+  EXPECT_NEAR(t.last("fx"), -10 * each, 1e-9 * each);
+}
+
 TEST(FixPlaten, ShearTurnsTheParticleAndBalances) {
   // Free sphere on a platen that starts to move: torque on the sphere is arm x force, so its spin
   // is that of a rolling start: acceleration F/m at the centre, F r/I about it, at first.
