@@ -22,10 +22,7 @@ using namespace bondlab::laws;
 BondBPM::BondBPM(LAMMPS *lmp)
     : Bond(lmp), style_(AtomVecBondedSphere::of(lmp, "bond_style")), grain_(NULL),
       seen_generation_(-1) {
-  style_->bond_gone = [this](int row) {
-    const int gone = BROKEN | SEPARATED;
-    return (style_->bonds.info[row] & gone) == gone;
-  };
+  style_->bond_gone = [this](int row) { return gone(row); };
 }
 
 BondBPM::~BondBPM() {
@@ -52,6 +49,25 @@ void BondBPM::init_style() {
   MPI_Allreduce(&longest, &all, 1, MPI_DOUBLE, MPI_MAX, world);
   if (all > 0.0) comm->cutghostuser = std::max(comm->cutghostuser, 1.5 * all + neighbor->skin);
   seen_generation_ = -1;  // coefficients may have changed
+}
+
+// A broken pair that has once been apart is an ordinary contact. Its row stays all the same while the
+// two could come into contact again, with the history of that contact and its place in the order of
+// summation: both would change at a rebuild of the neighbour list, whenever that happens to be. It
+// goes when they are further apart than ghosts reach, the same distance on any number of ranks.
+bool BondBPM::gone(int row) const {
+  const PairTable &t = style_->bonds;
+  const int both = BROKEN | SEPARATED;
+  if ((t.info[row] & both) != both) return false;
+  int i = style_->index_of(t.lo[row]), j = style_->index_of(t.hi[row]);
+  if (i < 0 || j < 0) return true;
+  if (i >= atom->nlocal) std::swap(i, j);
+  if (i >= atom->nlocal) return true;  // belongs to other ranks now
+  j = domain->closest_image(i, j);
+  double d2 = 0.0;
+  for (int d = 0; d < 3; d++) d2 += (atom->x[j][d] - atom->x[i][d]) * (atom->x[j][d] - atom->x[i][d]);
+  const double reach = *std::min_element(comm->cutghost, comm->cutghost + domain->dimension);
+  return d2 > reach * reach * (1.0 - 1e-9);
 }
 
 bool BondBPM::counted_here(int row) const { return table().own_lo[row] < atom->nlocal; }

@@ -6,8 +6,8 @@
 
    Every bond keeps the grain contact of its pair with it (laws/grain_contact.h): the contact of a
    bonded pair is stress-free at the distance of bonding, also after a break until the pair first
-   separates; then the reference is R_i + R_j and the row is handed to pair_style grain at the next
-   rebuild of the neighbour list.
+   separates; then the reference is R_i + R_j. The row of a broken bond stays until the two are far
+   apart; pair_style grain takes the pair from then on.
 
    Order: rows in order of tags (pair_table.h), so forces do not depend on ranks.
    Failure: error with both tags if a partner is missing. NaN: caught by fix curve and by the
@@ -81,6 +81,7 @@ class BondBPM : public Bond {
   double *column(int c) { return table().state[c].data(); }
   int padded() const { return static_cast<int>(alive_.size()); }
 
+  bool gone(int row) const;  // may be dropped from the table
   virtual void derive(int row) = 0;  // fills the style's own constants of a row
   virtual void resize_constants(int padded) = 0;
   void gather(int first, double dt, bondlab::laws::Kinematics3 &) const;
