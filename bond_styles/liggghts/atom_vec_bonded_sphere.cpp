@@ -198,12 +198,18 @@ void AtomVecBondedSphere::copy(int i, int j, int delflag) {
       modify->fix[atom->extra_grow[k]]->copy_arrays(i, j, delflag);
 }
 
+// The engine's array of indices ends at the largest tag it knows of: that of a deleted particle may
+// lie beyond.
+int AtomVecBondedSphere::index_of(int t) const {
+  return atom->map_style == 1 && t > atom->map_tag_max ? -1 : atom->map(t);
+}
+
 void AtomVecBondedSphere::index_tables() {
   if (!stale) return;
   stale = false;
   generation++;
   for (int i = 0; i < atom->nlocal; i++) slot[i] = i;
-  const auto where = [this](int t) { return atom->map(t); };
+  const auto where = [this](int t) { return index_of(t); };
   const auto closest = [this](int a, int b) { return domain->closest_image(a, b); };
 
   if (bond_gone) bonds.remove_if(bond_gone);

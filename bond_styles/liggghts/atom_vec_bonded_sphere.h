@@ -50,6 +50,7 @@ class AtomVecBondedSphere : public AtomVec {
   // their owners compare `generation` with the one they last saw.
   bigint generation;
   void mark_stale() { stale = true; }
+  int index_of(int tag) const;  // of a particle or ghost, -1 if there is none here
   // Error, with both tags, if a bonded partner is neither here nor a ghost. `bond_gone(row)` says
   // which bond rows may be dropped beforehand.
   void index_tables();

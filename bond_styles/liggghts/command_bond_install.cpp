@@ -57,6 +57,10 @@ void CommandBondInstall::command(int narg, char **arg) {
     bad(std::string("unknown word '") + arg[1] + "', allowed are gap and file");
   }
   style_->set_reference_positions();
+  // now, while the ghosts are here: particles that change rank before the first step take their
+  // bonds with them only if these are in order
+  style_->mark_stale();
+  style_->index_tables();
 
   bigint count = mine, total = 0;
   MPI_Allreduce(&count, &total, 1, MPI_LMP_BIGINT, MPI_SUM, world);
@@ -134,7 +138,6 @@ int CommandBondInstall::by_gap(double gap, int type) {
           }
         }
   }
-  style_->mark_stale();
   return count;
 }
 
@@ -171,27 +174,27 @@ int CommandBondInstall::from_file(const char *file, int type) {
   for (int i = 0; i < atom->nlocal; i++) largest = std::max(largest, atom->radius[i]);
   MPI_Allreduce(&largest, &all, 1, MPI_DOUBLE, MPI_MAX, world);
   ghosts(4.0 * all + neighbor->skin);
-  int count = 0, missing = 0;
-  for (int k = 0; k + 1 < n; k += 2) {
-    const int a = atom->map(std::min(pairs[k], pairs[k + 1]));
-    int b = atom->map(std::max(pairs[k], pairs[k + 1]));
-    const bool own_a = a >= 0 && a < atom->nlocal, own_b = b >= 0 && b < atom->nlocal;
-    if (!own_a && !own_b) continue;
-    if (a < 0 || b < 0) {
-      missing = k + 1;
-      continue;
-    }
-    if (own_a)
-      install(a, domain->closest_image(a, b), type);
-    else
-      install(b, domain->closest_image(b, a), type);
+  std::vector<int> found(n / 2, 0), anywhere(n / 2, 0);  // the pair is complete on a rank
+  int count = 0;
+  for (int k = 0; k < n / 2; k++) {
+    const int a = style_->index_of(std::min(pairs[2 * k], pairs[2 * k + 1]));
+    const int b = style_->index_of(std::max(pairs[2 * k], pairs[2 * k + 1]));
+    if (a < 0 || b < 0) continue;
+    const bool own_a = a < atom->nlocal;
+    if (!own_a && b >= atom->nlocal) continue;
+    const int i = own_a ? a : b, j = domain->closest_image(i, own_a ? b : a);
+    double d2 = 0.0;
+    for (int d = 0; d < 3; d++)
+      d2 += (atom->x[i][d] - atom->x[j][d]) * (atom->x[i][d] - atom->x[j][d]);
+    if (d2 > 16.0 * all * all) continue;
+    found[k] = 1;
+    install(i, j, type);
     if (own_a) count++;
   }
-  int any = 0;
-  MPI_Allreduce(&missing, &any, 1, MPI_INT, MPI_MAX, world);
-  if (any)
-    bad(std::string(file) + ": the particles " + std::to_string(pairs[any - 1]) + " and " +
-        std::to_string(pairs[any]) + " are missing or further apart than four of the largest radii");
-  style_->mark_stale();
+  MPI_Allreduce(found.data(), anywhere.data(), n / 2, MPI_INT, MPI_MAX, world);
+  for (int k = 0; k < n / 2; k++)
+    if (!anywhere[k])
+      bad(std::string(file) + ": the particles " + std::to_string(pairs[2 * k]) + " and " +
+          std::to_string(pairs[2 * k + 1]) + " are missing or further apart than four of the largest radii");
   return count;
 }
