@@ -85,7 +85,11 @@ void FixNVEBonded::final_integrate() {
   if (atom->nlocal) half_kick();
 }
 
-void FixNVEBonded::post_run() { style_->save_forces(); }
+// After `run 0` the forces are those of a set-up: they must not replace what the last step ended with.
+void FixNVEBonded::post_run() {
+  const bool stepped = !first_step_;
+  if (stepped || style_->saved_step != update->ntimestep) style_->save_forces();
+}
 
 // q <- q * rotation by w dt (exact for constant w, unit length kept)
 void FixNVEBonded::turn() {
