@@ -94,6 +94,12 @@ Finding ratio(const Target &a, const Target &b, const std::vector<LedgerPoint> &
   return finding;
 }
 
+// Whether the ratio moved by less than half of what either target did (in logarithms).
+bool stiffer_than_parts(const Finding &ratio, const Finding &a, const Finding &b) {
+  const auto width = [](const Finding &span) { return span.low > 0 ? std::log(span.high / span.low) : 0.0; };
+  return width(ratio) < 0.5 * std::min(width(a), width(b));
+}
+
 }  // namespace
 
 std::vector<Finding> judge_feasibility(const Study &study, const std::vector<std::string> &targets,
@@ -110,10 +116,11 @@ std::vector<Finding> judge_feasibility(const Study &study, const std::vector<std
       const Target &a = study.target(targets[i]), &b = study.target(targets[j]);
       // E over a strength is a ratio of like dimension too, and as good an evidence as any.
       if (!same_dimension(a.unit, b.unit) || a.value == 0 || b.value == 0) continue;
-      // A target that can't be reached alone spoils every ratio with it, which would only say the same again.
-      if (unreachable.count(a.name) || unreachable.count(b.name)) continue;
       auto finding = ratio(a, b, ledger);
-      if (finding.points > 0) findings.push_back(std::move(finding));
+      if (finding.points == 0) continue;
+      const bool one_unreachable = unreachable.count(a.name) || unreachable.count(b.name);
+      if (one_unreachable && !stiffer_than_parts(finding, single(a, ledger), single(b, ledger))) continue;
+      findings.push_back(std::move(finding));
     }
   return findings;
 }

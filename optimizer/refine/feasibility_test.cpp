@@ -50,11 +50,20 @@ TEST(Feasibility, RatioWithinTwoSdOfTheSpanIsReachable) {
 
 TEST(Feasibility, TargetOutsideTheSpanIsUnreachableAndSpoilsNoRatio) {
   const Study study = testing::granite_study();
-  const auto findings = judge_feasibility(study, strengths, {point(40, 4), point(100, 9.5)});
+  const auto findings = judge_feasibility(study, strengths, {point(40, 9.5), point(100, 9.8)});
   EXPECT_EQ(about(findings, {"UCS"}).kind, FindingKind::unreachable_target);
   EXPECT_NE(about(findings, {"UCS"}).text.find("No parameter set within the bounds reached it"), std::string::npos);
   EXPECT_TRUE(std::none_of(findings.begin(), findings.end(),
                            [](const Finding &f) { return f.kind == FindingKind::unreachable_ratio; }));
+}
+
+TEST(Feasibility, RatioThatHardlyMovesIsTheReasonThoughATargetIsUnreachableAlone) {
+  const Study study = testing::granite_study();
+  const auto findings = judge_feasibility(study, strengths, {point(80, 16), point(145, 28)});
+  EXPECT_EQ(about(findings, {"sigma_t"}).kind, FindingKind::unreachable_target);
+  const auto ratio = about(findings, strengths);
+  EXPECT_EQ(ratio.kind, FindingKind::unreachable_ratio);
+  EXPECT_EQ(ratio.text.find("each alone"), std::string::npos) << ratio.text;
 }
 
 TEST(Feasibility, TargetsOfUnlikeDimensionHaveNoRatio) {

@@ -21,7 +21,7 @@ namespace bondlab {
 namespace {
 
 constexpr int noise_repeats = 4;
-constexpr int most_starts = 3;
+constexpr int most_starts = 2;
 constexpr double small_gain = 2;  // of the misfit: a step of 1.4 sd of the parameters
 constexpr double small_share = 0.1;  // or this share of a misfit that stays, as where targets exclude each other
 constexpr double apart = 0.2;  // of the bounds: starts nearer to one that failed are not tried
@@ -234,7 +234,8 @@ MarquardtResult Driver::search() {
     // A search that stopped in the noise near a minimum is as good as it gets: settle() looks through the noise.
     const double enough = std::max(small_gain, small_share * misfit(evaluator_, problem_, best->point));
     const bool near = best->started && !best->jacobian.any_frozen() && best->stationarity.gain < enough;
-    if (best->converged || near || all_met(evaluator_, problem_, best->point)) break;
+    // Another start helps where a search got stuck, not where it only ran out of steps.
+    if (best->converged || near || best->limit_reached || all_met(evaluator_, problem_, best->point)) break;
   }
   if (!best) throw FitFailed(fmt::format("fit '{}': no point is left to start from", result_.name));
   return std::move(*best);
@@ -252,6 +253,7 @@ void Driver::move_to(const TransformedPoint &point, MarquardtResult &search) {
         difference_steps(space_, problem_, point, search.jacobian.rows, study_.options.difference_step));
     result_.notes.insert(result_.notes.end(), search.jacobian.notes.begin(), search.jacobian.notes.end());
   }
+  hold_at_bounds(evaluator_, problem_, point, search.jacobian);
   search.stationarity = judge_stationarity(evaluator_, problem_, point, search.jacobian);
   search.converged = search.stationarity.stationary;
 }

@@ -53,6 +53,20 @@ Eigen::MatrixXd regression_slopes(const Evaluator &evaluator, const FitProblem &
   return slopes;
 }
 
+void hold_at_bounds(const Evaluator &evaluator, const FitProblem &problem, const TransformedPoint &point,
+                    Jacobian &jacobian) {
+  const auto &space = evaluator.space();
+  jacobian.held.assign(space.n(), false);
+  const auto rows = standardised(evaluator, problem, point);
+  if (!rows) return;
+  const auto physical = space.to_physical(point);
+  for (std::size_t k = 0; k < space.n(); ++k) {
+    const BoundSide side = space.at_bound(k, physical.x[k], bound_fraction);
+    const double gradient = jacobian.rows.col(index(k)).dot(*rows);  // of the data alone, the prior always pulls inwards
+    jacobian.held[k] = (side == BoundSide::lower && gradient > 0) || (side == BoundSide::upper && gradient < 0);
+  }
+}
+
 Jacobian difference_jacobian(Evaluator &evaluator, const FitProblem &problem, const TransformedPoint &point,
                              const std::vector<double> &steps) {
   const auto &space = evaluator.space();
@@ -107,6 +121,7 @@ Jacobian difference_jacobian(Evaluator &evaluator, const FitProblem &problem, co
                                            space.names()[k], why));
     }
   }
+  hold_at_bounds(evaluator, problem, point, jacobian);
   return jacobian;
 }
 

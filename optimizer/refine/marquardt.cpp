@@ -51,7 +51,10 @@ void make_jacobian(Search &search, const TransformedPoint &point) {
   if (search.have_jacobian && point.z == result.jacobian.point.z) return;
   search.kept = search.have_jacobian && search.keep_allowed && !result.jacobian.any_frozen() &&
                 within_half_a_step(point, result.jacobian);
-  if (search.kept) return;
+  if (search.kept) {
+    hold_at_bounds(search.evaluator, search.problem, point, result.jacobian);
+    return;
+  }
   const Eigen::MatrixXd slopes = search.have_jacobian
                                      ? result.jacobian.rows
                                      : regression_slopes(search.evaluator, search.problem, point);
@@ -61,6 +64,19 @@ void make_jacobian(Search &search, const TransformedPoint &point) {
   result.notes.insert(result.notes.end(), result.jacobian.notes.begin(), result.jacobian.notes.end());
   ++result.jacobians;
   search.have_jacobian = true;
+}
+
+// Derivatives of targets and prior. A parameter that is frozen or held has none: not even the prior moves it.
+Eigen::MatrixXd stacked_rows(const Search &search) {
+  const auto &jacobian = search.result.jacobian;
+  const Eigen::Index n = jacobian.rows.rows(), p = jacobian.rows.cols();
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n + p, p);
+  for (Eigen::Index k = 0; k < p; ++k) {
+    if (!jacobian.moves(static_cast<std::size_t>(k))) continue;
+    a.col(k).head(n) = jacobian.rows.col(k);
+    a(n + k, k) = 1 / search.problem.prior_sd;
+  }
+  return a;
 }
 
 class RunCost : public ceres::CostFunction {
@@ -111,10 +127,7 @@ class RunCost : public ceres::CostFunction {
       make_jacobian(search_, point);
       using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
       Eigen::Map<RowMajor> a(jacobian, n + p, p);
-      a.topRows(n) = search_.result.jacobian.rows;
-      a.bottomRows(p).setZero();
-      for (Eigen::Index k = 0; k < p; ++k)  // a frozen parameter is held: not even the prior moves it
-        if (!search_.result.jacobian.frozen[static_cast<std::size_t>(k)]) a(n + k, k) = 1 / search_.problem.prior_sd;
+      a = stacked_rows(search_);
     }
     return true;
   }
@@ -147,6 +160,7 @@ class StepWatch : public ceres::IterationCallback {
       return ceres::SOLVER_ABORT;
     }
     if (result.trials >= search_.options.max_iterations) {
+      result.limit_reached = true;
       result.ended = fmt::format("the limit of {} steps was reached", search_.options.max_iterations);
       return ceres::SOLVER_ABORT;
     }
@@ -176,9 +190,7 @@ class StepWatch : public ceres::IterationCallback {
 // a bound the logit is flat and an undamped step would leap to the other bound.
 double first_trust_radius(const Search &search, const TransformedPoint &start) {
   const auto rows = standardised(search.evaluator, search.problem, start);
-  const Eigen::Index p = search.result.jacobian.rows.cols();
-  Eigen::MatrixXd a(rows->size() + p, p);
-  a << search.result.jacobian.rows, Eigen::MatrixXd::Identity(p, p) / search.problem.prior_sd;
+  const Eigen::MatrixXd a = stacked_rows(search);
   Eigen::VectorXd r(a.rows());
   r << *rows, prior_rows(search.problem, start);
   const Eigen::MatrixXd hessian = a.transpose() * a;
@@ -187,6 +199,7 @@ double first_trust_radius(const Search &search, const TransformedPoint &start) {
   for (; radius > least_first_radius; radius /= 2) {
     Eigen::MatrixXd damped = hessian;
     damped.diagonal() *= 1 + 1 / radius;
+    damped.diagonal().array() += std::numeric_limits<double>::min();  // parameters that don't move have zeros here
     if (damped.ldlt().solve(gradient).cwiseAbs().maxCoeff() <= longest_first_step) break;
   }
   return radius;

@@ -24,7 +24,7 @@ namespace bondlab {
 struct MarquardtOptions {
   int max_iterations = 8;          // trial points
   double relative_step = 0.03;     // see difference_steps()
-  double immaterial = immaterial_sd;
+  Immaterial immaterial;
   bool keep_jacobian = true;
 };
 
@@ -38,6 +38,7 @@ struct MarquardtStep {
 struct MarquardtResult {
   bool started = false;
   bool converged = false;
+  bool limit_reached = false;      // max_iterations
   TransformedPoint point;
   Jacobian jacobian;               // within half of its steps from the point, or at it
   Stationarity stationarity;

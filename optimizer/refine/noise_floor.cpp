@@ -15,19 +15,19 @@ namespace bondlab {
 namespace {
 
 constexpr std::uint64_t noise_stream = 0x401;
-constexpr double largest_z_change = 0.1;  // near a bound a relative change would need a leap in z
+constexpr double largest_z_change = 0.2;  // near a bound a relative change would need a leap in z
 
 }  // namespace
 
-std::vector<TransformedPoint> noise_points(const ParameterSpace &space, const TransformedPoint &centre, int repeats,
-                                           std::uint64_t seed) {
+std::vector<TransformedPoint> noise_points(const ParameterSpace &space, const TransformedPoint &centre, double wiggle,
+                                           int repeats, std::uint64_t seed) {
   RandomStream random(seed, noise_stream);
   const auto physical = space.to_physical(centre);
   std::vector<TransformedPoint> points;
   for (int r = 0; r < repeats; ++r) {
     auto point = centre;
     for (std::size_t k = 0; k < space.n(); ++k) {
-      const double change = noise_wiggle * std::fabs(physical.x[k]) / space.dx_dz(k, centre.z[k]);
+      const double change = wiggle * std::fabs(physical.x[k]) / space.dx_dz(k, centre.z[k]);
       point.z[k] += random.uniform(-1, 1) * std::min(change, largest_z_change);
     }
     points.push_back(std::move(point));
@@ -38,7 +38,7 @@ std::vector<TransformedPoint> noise_points(const ParameterSpace &space, const Tr
 NoiseFloor measure_noise(Evaluator &evaluator, const TargetIndices &targets, const TransformedPoint &centre,
                          int repeats, std::uint64_t seed) {
   const auto &space = evaluator.space();
-  auto points = noise_points(space, centre, repeats, seed);
+  auto points = noise_points(space, centre, noise_wiggle, repeats, seed);
   evaluator.run(points, targets, "noise");
   points.push_back(centre);
 

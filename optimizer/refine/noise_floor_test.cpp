@@ -77,7 +77,7 @@ TEST(NoiseFloor, PointsStayNearTheCentreAndInsideTheBounds) {
   for (const double u : {0.5, 0.001, 0.999}) {
     const auto centre = space.to_transformed(space.from_unit_cube({u, u, u}));
     const auto x = space.to_physical(centre).x;
-    for (const auto &point : noise_points(space, centre, 20, 3)) {
+    for (const auto &point : noise_points(space, centre, noise_wiggle, 20, 3)) {
       const auto y = space.to_physical(point).x;
       for (std::size_t k = 0; k < 3; ++k) {
         EXPECT_LE(std::fabs(y[k] / x[k] - 1), 1.1 * noise_wiggle);

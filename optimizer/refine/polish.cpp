@@ -14,6 +14,7 @@ namespace bondlab {
 namespace {
 
 constexpr int rounds = 3, neighbours = 3;
+constexpr double wiggle = 0.006;  // enough to turn a crack now and then, a fifth of what counts as met
 constexpr double reach = 0.2;  // of the bounds: about the width of the derivatives' steps in a noisy study
 
 }  // namespace
@@ -94,7 +95,7 @@ std::vector<std::string> polish(Evaluator &evaluator, const FitProblem &problem,
                         "no last look was taken");
       break;
     }
-    auto points = noise_points(evaluator.space(), proposal->point, neighbours,
+    auto points = noise_points(evaluator.space(), proposal->point, wiggle, neighbours,
                                hash_ints({seed, static_cast<std::uint64_t>(round + 1)}));
     points.insert(points.begin(), proposal->point);
     evaluator.run(points, problem.targets, "polish");

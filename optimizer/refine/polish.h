@@ -3,7 +3,7 @@
 // Job: after a search has come down to the noise, find a parameter set whose own run meets the targets.
 // Method: near the minimum single runs scatter about the mean response, so that the run at the best mean point may miss
 //   a target by chance. A regression weighted towards the best point smooths the scatter; the point it proposes and three
-//   neighbours at the distance of the noise runs are run, and the best run counts. Up to three rounds, and none when
+//   neighbours within 0.6 % of it are run, and the best run counts. Up to three rounds, and none when
 //   the regression itself says that a target cannot be met.
 //   Where targets exclude each other no run meets them all, and the lowest misfit among single runs is a draw of luck: with
 //   differences of several sd its scatter is several units. Then the run at the regression's own minimum is taken, unless

@@ -6,7 +6,8 @@
 //   covariance C follows from the measured noise, so g'C^-1 g is then chi squared with as many degrees of freedom as
 //   parameters; up to the 95 % point the gradient counts as zero. Rows count with at least `immaterial` noise: a
 //   difference of some hundredths of a sd is not worth a run. A gradient that is not zero counts as zero nevertheless
-//   when a full step promises to lower the misfit by less than the noise alone adds to it: no run could show the gain.
+//   when a full step promises to lower the misfit by less than the noise alone adds to it (no run could show the gain) or
+//   by next to nothing (the step is then a fifth of a sd of the parameters). Parameters held at a bound are left out.
 //   And one that could be zero is not taken as zero when a full step promises a gain worth having (the gain is the square
 //   of the step in standard deviations of the parameters): then the derivatives are too noisy to tell, which is no success.
 // Why not a solver's own tolerances: they compare the cost with itself. With noise they stop anywhere and call it success
@@ -18,7 +19,10 @@
 
 namespace bondlab {
 
-constexpr double immaterial_sd = 0.03;
+struct Immaterial {
+  double row = 0.03;   // sd of a target
+  double gain = 0.05;  // of the misfit
+};
 constexpr double gain_worth_having = 0.5;  // and four times the noise's share on top
 
 struct Stationarity {
@@ -30,6 +34,6 @@ struct Stationarity {
 };
 
 Stationarity judge_stationarity(const Evaluator &evaluator, const FitProblem &problem, const TransformedPoint &point,
-                                const Jacobian &jacobian, double immaterial = immaterial_sd);
+                                const Jacobian &jacobian, const Immaterial &immaterial = {});
 
 }  // namespace bondlab

@@ -20,7 +20,6 @@
 
 namespace bondlab {
 
-constexpr double bound_fraction = 0.02;         // of the range between the bounds: nearer counts as at the bound
 constexpr double flat_profile_rise = 3.84;      // 95 % point of chi squared, one degree of freedom
 constexpr double interval_width = 1.959963985;  // sd to a 95 % interval
 
