@@ -25,6 +25,9 @@ project() {
     echo 'cmake_minimum_required(VERSION 3.22)'
     echo 'project(stub NONE)'
     echo 'enable_testing()'
+    echo 'add_custom_target(bondlab)'
+    echo 'add_custom_target(lmp_bondlab)'
+    echo 'add_custom_target(the_tests ALL ${CMAKE_COMMAND} -E touch tests_were_built)'
     local program
     for program in "$@"; do
       echo "file(COPY \${CMAKE_SOURCE_DIR}/$program DESTINATION \${CMAKE_BINARY_DIR}/bin"
@@ -54,6 +57,7 @@ check "quickstart succeeds: $err" test $status = 0
 check "its last line is the report: $out" \
   test "$(tail -n 1 <<< "$out")" = "report: bondlab-results/granite/report.html"
 check "it prints nothing of its own before: $out" test "$(wc -l <<< "$out")" = 2
+check "it does not wait for the tests to be built" test ! -f build/tests_were_built
 cd / || exit 1
 capture "$home/tools/quickstart"
 check "from elsewhere the path is whole: $out" \
@@ -90,6 +94,7 @@ expect_error 1 "the build failed" "law.h:3:5: error: no such law" "log:" -- tool
 rm more.cmake
 capture tools/test
 check "tests pass: $out $err" test $status = 0
+check "everything was built" test -f build/tests_were_built
 check "the first line is ctest's summary: $out" \
   grep -q "^100% tests passed, 0 tests failed out of 1" <(head -n 1 <<< "$out")
 check "nothing on stderr: $err" test -z "$err"

@@ -24,7 +24,8 @@ function(add_tests)
   cmake_parse_arguments(T "SERIAL" "NAME;LABEL;TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(${T_NAME} ${T_SOURCES})
   target_compile_definitions(${T_NAME} PRIVATE ${test_definitions})
-  target_compile_options(${T_NAME} PRIVATE ${warnings} ${sanitize})
+  # What is tested is compiled as in the program; the tests' own code need not be fast.
+  target_compile_options(${T_NAME} PRIVATE -O1 ${warnings} ${sanitize})
   target_link_options(${T_NAME} PRIVATE ${sanitize})
   target_link_libraries(${T_NAME} PRIVATE ${T_LIBRARIES} GTest::gtest GTest::gtest_main)
   set(properties LABELS ${T_LABEL} TIMEOUT ${T_TIMEOUT})
@@ -39,7 +40,8 @@ if(law_tests)
   add_tests(NAME law_tests LABEL physics TIMEOUT 120 SOURCES ${law_tests} LIBRARIES bondlab_laws)
   target_include_directories(law_tests PRIVATE
     ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/bond_styles ${PROJECT_SOURCE_DIR}/fix_styles)
-  target_compile_options(law_tests PRIVATE ${arch_flags} ${kernel_flags})
+  # Laws are headers: here they are compiled with the tests, so as in the program.
+  target_compile_options(law_tests PRIVATE -O3 ${arch_flags} ${kernel_flags})
 endif()
 
 if(unit_tests AND TARGET bondlab_core)

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # shellcheck shell=bash
 #
-# Sets the machine up and builds the release preset into build/.
+# Sets the machine up and builds the release preset into build/: what is named, or everything.
 #
 # Failure: one line with the first error of the compiler or of CMake and the name of the log.
 
 build_release() {
+  local targets=("$@")
   # Said before the engine is built for minutes.
   need_space "$root" 500 "a checkout elsewhere"
   "$root/tools/setup"
@@ -15,7 +16,8 @@ build_release() {
   if ! quietly cmake --preset release; then
     die "CMake could not configure: $(reason) (log: $log)"
   fi
-  if ! quietly cmake --build --preset release -j "$(jobs)"; then
+  if ! quietly cmake --build --preset release -j "$(jobs)" \
+    ${targets[0]:+--target "${targets[@]}"}; then
     die "the build failed: $(reason) (log: $log)"
   fi
   local program
