@@ -37,7 +37,7 @@ function(add_tests)
 endfunction()
 
 if(law_tests)
-  add_tests(NAME law_tests LABEL physics TIMEOUT 120 SOURCES ${law_tests} LIBRARIES bondlab_laws)
+  add_tests(NAME law_tests LABEL physics TIMEOUT 300 SOURCES ${law_tests} LIBRARIES bondlab_laws)
   target_include_directories(law_tests PRIVATE
     ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/bond_styles ${PROJECT_SOURCE_DIR}/fix_styles)
   # Laws are headers: here they are compiled with the tests, so as in the program.
@@ -45,7 +45,7 @@ if(law_tests)
 endif()
 
 if(unit_tests AND TARGET bondlab_core)
-  add_tests(NAME unit_tests LABEL unit TIMEOUT 120 SOURCES ${unit_tests}
+  add_tests(NAME unit_tests LABEL unit TIMEOUT 300 SOURCES ${unit_tests}
     LIBRARIES $<TARGET_NAME_IF_EXISTS:bondlab_app> bondlab_core)
 endif()
 
