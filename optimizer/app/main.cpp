@@ -6,6 +6,7 @@
 // Exit status: 0 done; 1 something the user can mend, told as `error: file:line:column: what, and what is allowed`; 2 forward
 // runs failed beyond what the policy allows; 3 a fault of ours; 128 + n ended by signal n.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -17,6 +18,16 @@
 namespace {
 
 constexpr int kUserError = 1, kRunsFailed = 2, kInternalError = 3;
+
+// CLI11 only says that a subcommand is required.
+void refuse_unknown_command(const CLI::App &app, int argc, char **argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App *command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
+  const std::string near = bondlab::nearest_word(argv[1], names);
+  throw bondlab::UserError(std::string("there is no command '") + argv[1] + "'" + (near.empty() ? "" : " (did you mean '" + near + "'?)") + "; commands: " + bondlab::join(names));
+}
 
 void print_error(const std::string &text) { std::fprintf(stderr, "error: %s\n", text.c_str()); }
 
@@ -32,6 +43,7 @@ int main(int argc, char **argv) {
     bondlab::add_fit(app);
     bondlab::add_report(app);
     bondlab::add_specimen(app);
+    refuse_unknown_command(app, argc, argv);
     app.parse(argc, argv);
     return 0;
   } catch (const CLI::ParseError &error) {

@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "base/units.h"
+#include "forward/bond_gap_check.h"
 #include "forward/interrupt.h"
-#include "specimen/check_packing.h"
 
 namespace bondlab {
 
@@ -126,9 +126,7 @@ void EngineForwardModel::Batch::make_specimens(std::vector<Job> &jobs) {
     for (std::size_t i; (i = next++) < list.size() && !interrupt_signal();) {
       try {
         list[i]->file = settings_.specimens(list[i]->entry, list[i]->packing);
-        PackingLimits limits;
-        limits.gap = list[i]->gap;
-        check_packing(list[i]->file.path, limits);
+        if (list[i]->gap > 0) check_bond_gap(list[i]->file.path, list[i]->gap);
       } catch (const std::exception &error) {
         list[i]->error = error.what();
       }
