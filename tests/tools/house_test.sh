@@ -16,7 +16,7 @@ files() {
 }
 
 # Text that people write: no pictures, no data, not the licence itself.
-files | grep -vE '^(LICENSE|tests/data/.*|inputs/data/.*|.*/testdata/.*|.*\.(png|svg|html|csv|tsv))$' |
+files | grep -vE '^(LICENSE|tests/data/.*|inputs/data/.*|.*/testdata/.*|.*\.(png|svg|html|csv|tsv|data))$' |
   while read -r file; do [ -f "$file" ] && echo "$file"; done > "$scratch/files"
 grep -vE '\.json$' "$scratch/files" > "$scratch/commented"
 
