@@ -265,23 +265,27 @@ int AtomVecBondedSphere::unpack_restart(double *buf) {
 }
 
 // The time step goes along: computed from the bonded network (timestep_bonded), it would come out
-// otherwise after bonds have broken. Before the first run there are no forces to go on from.
+// otherwise after bonds have broken. So does the time, which the engine would count from 0 again.
+// Before the first run there are no forces to go on from.
 void AtomVecBondedSphere::write_restart_settings(FILE *fp) {
   const bool forces = saved_step == update->ntimestep || update->whichflag != 0;
-  const double settings[4] = {thickness, density_override, update->dt, forces ? 1.0 : 0.0};
+  const double settings[5] = {thickness, density_override, update->dt, forces ? 1.0 : 0.0,
+                              update->get_cur_time()};
   fwrite(settings, sizeof settings, 1, fp);
 }
 
 void AtomVecBondedSphere::read_restart_settings(FILE *fp) {
   int me, good = 1;
   MPI_Comm_rank(world, &me);
-  double settings[4] = {0.0, 0.0, 0.0, 0.0};
+  double settings[5] = {0.0, 0.0, 0.0, 0.0, 0.0};
   if (me == 0) good = fread(settings, sizeof settings, 1, fp) == 1;
   MPI_Bcast(&good, 1, MPI_INT, 0, world);
   if (!good) error->all(FLERR, "restart file ends within the settings of atom_style bonded/sphere");
-  MPI_Bcast(settings, 4, MPI_DOUBLE, 0, world);
+  MPI_Bcast(settings, 5, MPI_DOUBLE, 0, world);
   thickness = settings[0];
   density_override = settings[1];
   update->dt = settings[2];
   saved_step = settings[3] != 0.0 ? update->ntimestep : -1;  // known before the particles come
+  update->atime = settings[4];
+  update->atimestep = update->ntimestep;
 }
