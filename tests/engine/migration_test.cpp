@@ -25,12 +25,13 @@ std::string run(const std::string &deck, int ranks, const EngineFolder &folder) 
 struct Cluster {
   int dimension = 3, n = 5;
   double speed = 0.0, spin = 0.0, start = 0.0;  // m/s, rad/s, m
+  double spacing = 2e-3;                        // m
 
   std::string data(double half_width) const {
     std::vector<Particle> particles;
     std::ostringstream velocities;
     velocities.precision(17);
-    const double d = 2e-3;
+    const double d = spacing;
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j)
         for (int k = 0; k < (dimension == 3 ? n : 1); ++k) {
@@ -134,7 +135,6 @@ TEST_P(Moving, rubble_with_sliding_contacts) {
   const auto deck = [&](const EngineFolder &f, const char *grid) {
     Preamble p = c.deck(f);
     p.bond = "5e9 2.0 5e6 5e6 scatter weibull 3 3";
-    p.install = "gap 6e-5";  // most pairs start without a bond and come into contact
     return std::string("processors ") + grid + "\n" + p.text() +
            "velocity all ramp vy -20 20 x -0.0175 -0.0075 sum yes\n"
            "velocity all ramp vx 20 -20 x -0.0175 -0.0075 sum yes\n"
@@ -144,9 +144,40 @@ TEST_P(Moving, rubble_with_sliding_contacts) {
   };
   EngineFolder one, four;
   const std::string alone = run(deck(one, "1 1 1"), 1, one);
-  EXPECT_GT(read_table(one.file("broken.tsv")).rows.size(), c.dimension == 2 ? 3u : 20u);
+  EXPECT_GT(read_table(one.file("broken.tsv")).rows.size(), c.dimension == 2 ? 8u : 50u);
   EXPECT_TRUE(alone == run(deck(four, "4 1 1"), 4, four));
   EXPECT_EQ(one.read("broken.tsv"), four.read("broken.tsv"));
+}
+
+// Pairs left unbonded within a bonded body stay in contact, with a history of shear, all the way.
+TEST_P(Moving, contacts_within_a_bonded_body) {
+  Cluster c;
+  c.dimension = GetParam();
+  c.speed = 200.0;
+  c.start = -0.0125;
+  c.spacing = 1.9e-3;  // overlapping
+  const auto deck = [&](const EngineFolder &f, const char *grid) {
+    Preamble p = c.deck(f);
+    const int depth = c.dimension == 3 ? c.n : 1;
+    std::string list;
+    for (int i = 0; i < c.n; ++i)
+      for (int j = 0; j < c.n; ++j)
+        for (int k = 0; k < depth; ++k) {
+          const int id = 1 + (i * c.n + j) * depth + k, next[3] = {id + c.n * depth, id + depth, id + 1};
+          const bool there[3] = {i + 1 < c.n, j + 1 < c.n, k + 1 < depth};
+          for (int d = 0; d < 3; ++d)
+            if (there[d] && (i + 2 * j + 3 * k + d) % 3 != 0)
+              list += std::to_string(id) + " " + std::to_string(next[d]) + "\n";
+        }
+    f.write("pairs", list);
+    p.install = "file pairs";
+    return std::string("processors ") + grid + "\n" + p.text() +
+           "velocity all ramp vy -2 2 x -0.0175 -0.0075 sum yes\n"
+           "fix integrate all nve/bonded\nvariable n equal ceil(1.25e-4/dt)\nrun $n\n" +
+           dump_all("end.txt");
+  };
+  EngineFolder one, four;
+  EXPECT_TRUE(run(deck(one, "1 1 1"), 1, one) == run(deck(four, "4 1 1"), 4, four));
 }
 
 INSTANTIATE_TEST_SUITE_P(Dimensions, Moving, testing::Values(2, 3));
