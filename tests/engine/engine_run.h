@@ -45,7 +45,7 @@ struct EngineResult {
 // ranks = 0: one process without mpirun, which starts and fails faster. `arguments` are added to
 // the command line, for instance {"-var", "E", "1e9"}.
 EngineResult run_deck(const EngineFolder &folder, const std::string &deck, int ranks = 1,
-                      const std::vector<std::string> &arguments = {}, double limit = 60.0);
+                      const std::vector<std::string> &arguments = {}, double limit = 180.0);
 
 // A table in the format of curve.tsv and broken_bonds.tsv.
 struct Table {
