@@ -2,11 +2,10 @@
 //
 // Job: files of a result appear whole or not at all.
 // Method: text goes to a temporary file in the same directory, is flushed to the disk and renamed
-// over the old file
-//   (POSIX rename is atomic). A directory of files is made beside the old one and takes its name at
-//   the end.
-// Units: none. Failure: UserError with the path and the system's reason; the temporary file is
-// removed.
+//   over the old file (POSIX rename is atomic). A directory of files is made beside the old one and
+//   takes its name at the end.
+// Units: none.
+// Failure: UserError with the path and the system's reason; the temporary file is removed.
 #pragma once
 
 #include <filesystem>

@@ -2,14 +2,13 @@
 //
 // Job: the plot of one virtual test's curve, with the figures read from it marked in it.
 // Method: a curve with stress and gauge strains is drawn the way rock laboratories do, axial strain
-// to the right and
-//   lateral strain to the left; any other curve as force over displacement. The number of broken
-//   bonds has the right-hand axis. Tangent and peak are taken by the functions of response/ that
-//   the fit used, so that the mark is the number of the table. Curves of many samples are thinned
-//   without losing a peak.
-// Units: SI in; %, MPa (or the prefix that suits), mm and kN on the axes. Failure: UserError when
-// the curve has neither
-//   set of columns. A figure that can't be read from the curve is left out.
+//   to the right and lateral strain to the left; any other curve as force over displacement. The
+//   number of broken bonds has the right-hand axis. Tangent and peak are taken by the functions of
+//   response/ that the fit used, so that the mark is the number of the table. Curves of many
+//   samples are thinned without losing a peak.
+// Units: SI in; %, MPa (or the prefix that suits), mm and kN on the axes.
+// Failure: UserError when the curve has neither set of columns. A figure that can't be read from
+//   the curve is left out.
 #pragma once
 
 #include <vector>

@@ -60,39 +60,40 @@ DeviationPicture deviation_picture(const ReportInput &input) {
       "How far each simulated value is from the measured one (0 %); the band is the measured "
       "standard deviation.";
 
-  double low = -5, high = 5;
+  double low = -10, high = 10;
   for (const Row &row : rows)
     for (const double value : {row.fit, row.tradeoff, row.sd, -row.sd, row.mean - row.spread,
                                row.mean + row.spread, row.mean})
       if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
-  const double pad = 0.06 * (high - low);
-  low -= pad, high += pad;
+  // Even near zero, logarithmic far from it: a prediction that is 200 % off must not hide which
+  // target is 1 % off and which 4 %.
+  const auto stretched = [](double percent) { return std::asinh(percent / 4); };
+  const double from = stretched(low), to = stretched(high), pad = 0.06 * (to - from);
 
   const double width = 1100, left = 170, right = 130, top = 44, pitch = 40;
   const double bottom = top + pitch * static_cast<double>(rows.size()), height = bottom + 48;
   const auto px = [&](double percent) {
-    return left + (percent - low) / (high - low) * (width - left - right);
+    return left +
+           (stretched(percent) - from + pad) / (to - from + 2 * pad) * (width - left - right);
   };
   SvgWriter svg(width, height, picture.title, picture.sentence);
   const std::string ink = fmt::format("fill=\"{}\"", light("ink")),
                     quiet = fmt::format("fill=\"{}\"", light("quiet"));
 
-  double step = 1;
-  for (const double candidate :
-       {1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 1e4, 1e5})
-    if ((high - low) / step > 12) step = candidate;
-  const double first = std::ceil(low / step) * step;
-  const int ticks = static_cast<int>(std::min(60.0, std::floor((high - first) / step))) + 1;
-  for (int i = 0; i < ticks; ++i) {
-    const double tick = first + i * step;
-    const bool zero = std::fabs(tick) < 0.5 * step;
+  std::vector<double> ticks = {0};
+  for (double decade = 1; decade < 1e7; decade *= 10)
+    for (const double digit : {1.0, 2.0, 5.0})
+      for (const double tick : {-digit * decade, digit * decade})
+        if (std::fabs(tick) >= 2 && tick >= low && tick <= high) ticks.push_back(tick);
+  for (const double tick : ticks) {
     svg.line(px(tick), top - 6, px(tick), bottom,
-             fmt::format("stroke=\"{}\" stroke-width=\"{}\"", light(zero ? "quiet" : "grid"),
-                         zero ? "1.4" : "1"));
-    svg.text(px(tick), bottom + 17, (tick > 0.5 * step ? "+" : "") + significant(zero ? 0 : tick),
+             fmt::format("stroke=\"{}\" stroke-width=\"{}\"", light(tick == 0 ? "quiet" : "grid"),
+                         tick == 0 ? "1.4" : "1"));
+    svg.text(px(tick), bottom + 17, (tick > 0 ? "+" : "") + significant(tick),
              quiet + " text-anchor=\"middle\"");
   }
-  svg.text((left + width - right) / 2, bottom + 37, "deviation from the measured value (%)",
+  svg.text((left + width - right) / 2, bottom + 37,
+           "deviation from the measured value (%), scale stretched about zero",
            ink + " text-anchor=\"middle\"");
 
   picture.data =

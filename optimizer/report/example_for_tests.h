@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // Job: a made-up result for the tests of this room: run files of two tests and the ReportInput that
-// goes with them. Method: discs on a jittered triangular lattice, cracks chosen along a band
-// (compression) and a diameter (Brazilian), curves
-//   from a simple formula. Nothing here is physics; it only has the shape of real files. Everything
-//   follows from `spacing`.
-// Units: SI. Failure: UserError when a file can't be written.
+//   goes with them.
+// Method: discs on a jittered triangular lattice, cracks chosen along a band (compression) and a
+//   diameter (Brazilian), curves from a simple formula. Nothing here is physics; it only has the
+//   shape of real files. Everything follows from `spacing`.
+// Units: SI.
+// Failure: UserError when a file can't be written.
 #pragma once
 
 #include <algorithm>

@@ -22,6 +22,8 @@ Phase phase_of(const std::string &phase) {
   if (phase == "noise") return {"noise (small steps, same point)", Look::crosses, "series-4"};
   if (phase == "refine") return {"refine (Levenberg-Marquardt)", Look::points, "series-1"};
   if (phase == "polish") return {"polish", Look::points, "series-3"};
+  if (phase == "derivatives")
+    return {"derivatives (steps about a point)", Look::crosses, "series-5"};
   return {phase, Look::crosses, "series-4"};
 }
 
@@ -105,16 +107,18 @@ double log_scatter(const std::vector<double> &values) {
 
 std::optional<Plot> misfit_plot(const ReportFit &fit) {
   PlotPanel panel;
-  panel.x.label = "forward runs";
+  panel.x.label = "parameter sets tried";
   panel.x.from_zero = true;
   panel.y.label = "misfit (sum of squares, in sd)";
   ByPhase points;
   PlotSeries best = make("best so far", Look::steps, "ink", {}, {});
   double smallest = INFINITY, greatest = 0;
+  double number = 0;
   for (const ReportStep &step : fit.history) {
-    if (std::isfinite(step.misfit)) points.add(step.phase, step.runs, step.misfit);
+    ++number;
+    if (std::isfinite(step.misfit)) points.add(step.phase, number, step.misfit);
     if (std::isfinite(step.best_misfit))
-      best.x.push_back(step.runs), best.y.push_back(step.best_misfit);
+      best.x.push_back(number), best.y.push_back(step.best_misfit);
     for (const double value : {step.misfit, step.best_misfit})
       if (std::isfinite(value) && value > 0)
         smallest = std::min(smallest, value), greatest = std::max(greatest, value);
@@ -124,11 +128,13 @@ std::optional<Plot> misfit_plot(const ReportFit &fit) {
   panel.series.push_back(std::move(best));
   points.move_to(panel);
   Plot plot;
-  plot.title = "Misfit over the runs of the fit \u201c" + fit.name + "\u201d";
+  plot.title = "Misfit: fit \u201c" + fit.name + "\u201d";
   plot.sentence =
       "Sum of the squared differences between simulated and measured values, each divided by the "
-      "measured "
-      "standard deviation, for every parameter set tried; the line is the best one so far.";
+      "measured standard deviation, for " +
+      counted(static_cast<long>(fit.history.size()), "parameter set", "parameter sets") +
+      " (up to " + counted(fit.history.back().runs, "forward run", "forward runs") +
+      "); the line is the best one so far.";
   plot.width = 540, plot.height = 340;
   plot.panels.push_back(std::move(panel));
   return plot;
@@ -137,11 +143,11 @@ std::optional<Plot> misfit_plot(const ReportFit &fit) {
 std::optional<Plot> parameter_plot(const ReportFit &fit) {
   if (fit.history.empty() || fit.parameters.empty()) return std::nullopt;
   Plot plot;
-  const double last = std::max(1, fit.history.back().runs);
+  const double last = static_cast<double>(fit.history.size());
   for (std::size_t p = 0; p < fit.parameters.size(); ++p) {
     const ReportParameter &parameter = fit.parameters[p];
     PlotPanel panel;
-    panel.x.label = "forward runs";
+    panel.x.label = "parameter sets tried";
     panel.x.from_zero = true;
     panel.y.label = axis_name(parameter.name, parameter.unit);
     panel.y.logarithmic = parameter.logarithmic && parameter.lower > 0;
@@ -158,15 +164,16 @@ std::optional<Plot> parameter_plot(const ReportFit &fit) {
       panel.series.push_back(
           make("result", Look::line, "series-2", {0, last}, {parameter.value, parameter.value}));
     ByPhase points;
+    double number = 0;
     for (const ReportStep &step : fit.history)
-      if (p < step.parameters.size()) points.add(step.phase, step.runs, step.parameters[p]);
+      if (++number; p < step.parameters.size()) points.add(step.phase, number, step.parameters[p]);
     points.move_to(panel);
     plot.panels.push_back(std::move(panel));
   }
   const int count = static_cast<int>(plot.panels.size());
   plot.columns = std::min(3, count);
   const int rows = (count + plot.columns - 1) / plot.columns;
-  plot.title = "Parameters over the runs of the fit \u201c" + fit.name + "\u201d";
+  plot.title = "Parameters: fit \u201c" + fit.name + "\u201d";
   plot.sentence =
       "Where the fit looked: each point is a parameter set that was run, between the bounds it may "
       "not leave.";

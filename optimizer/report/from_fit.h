@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // Job: turn what a fit found out (SI, with whole curves in memory) into what the report and
-// result.json hold. Method: numbers go into the units that the study shows them in; curves stay in
-// the files of their runs, named relative to
-//   the result's directory so that the directory can be moved; measured curves are copied, because
-//   their folder may go.
-// Units: SI in, shown units out. Failure: UserError when a target names a response its test doesn't
-// have (a study that
+//   result.json hold.
+// Method: numbers go into the units that the study shows them in; curves stay in the files of their
+//   runs, named relative to the result's directory so that the directory can be moved; measured
+//   curves are copied, because their folder may go.
+// Units: SI in, shown units out.
+// Failure: UserError when a target names a response its test doesn't have (a study that
 //   read_study() accepted never does).
 #pragma once
 

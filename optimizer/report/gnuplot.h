@@ -2,12 +2,13 @@
 //
 // Job: run gnuplot on a plot and make of its SVG a picture that can stand in a page beside others.
 // Method: script and data are written to the directory given and gnuplot is started there without a
-// shell and without the
-//   user's own settings (-d). Its SVG is tidied: own root element with title and description, no
-//   empty groups, no version, element ids made unique by the plot's name (several pictures share
-//   one page), colours as #rrggbb of the palette.
-// Units: none. Failure: UserError when the program is missing, ends with an error (its words are
-// given) or draws nothing. Limits: written for gnuplot 5.4 and 5.2 (Debian 11 to 13).
+//   shell and without the user's own settings (-d). Its SVG is tidied: own root element with title
+//   and description, no empty groups, no version, element ids made unique by the plot's name
+//   (several pictures share one page), colours as #rrggbb of the palette.
+// Units: none.
+// Failure: UserError when the program is missing, ends with an error (its words are given) or draws
+//   nothing.
+// Limits: written for gnuplot 5.4 and 5.2 (Debian 11 to 13).
 #pragma once
 
 #include <filesystem>

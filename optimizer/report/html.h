@@ -2,9 +2,10 @@
 //
 // Job: the few HTML pieces the report is made of: tables of numbers, tags, commands, figures.
 // Method: functions that take plain text escape it themselves; arguments named `html` are taken as
-// they are. A number in a
-//   table is a <data> element: the reader sees it rounded, a program reads all its digits.
-// Units: the caller's. Failure: none.
+//   they are. A number in a table is a <data> element: the reader sees it rounded, a program reads
+//   all its digits.
+// Units: the caller's.
+// Failure: none.
 #pragma once
 
 #include <string>

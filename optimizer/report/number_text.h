@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // Job: numbers as a reader wants them: few digits, a true minus sign, a dash for what could not be
-// had. Method: rounding to significant digits without exponent between 1e-4 and 1e7; a value with a
-// standard deviation is cut
-//   where the second digit of the deviation stands, so that no digit is shown that means nothing.
-// Units: the caller's. Failure: none; NaN and infinity become a dash. Limits: locale-independent by
-// fmt.
+//   had.
+// Method: rounding to significant digits without exponent between 1e-4 and 1e7; a value with a
+//   standard deviation is cut where the second digit of the deviation stands, so that no digit is
+//   shown that means nothing.
+// Units: the caller's.
+// Failure: none; NaN and infinity become a dash.
+// Limits: locale-independent by fmt.
 #pragma once
 
 #include <string>

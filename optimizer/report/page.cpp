@@ -170,8 +170,8 @@ std::string runs_section(const ReportInput &input) {
     for (const auto &[name, sum] : tests) {
       const double mean = sum.seconds / static_cast<double>(sum.runs);
       table.row({html_text(name), count_text(sum.runs), count_text(sum.failed),
-                 html_number(sum.seconds, significant(sum.seconds, 3)),
-                 html_number(mean, significant(mean, 3))});
+                 html_number(sum.seconds, significant_full(sum.seconds, 3)),
+                 html_number(mean, significant_full(mean, 3))});
     }
     html += table.html();
   }

@@ -2,10 +2,10 @@
 //
 // Job: put the report's words, tables and pictures into one HTML page that needs nothing else.
 // Method: one function a section, each from ReportInput alone and empty when there is nothing to
-// show; a section that
-//   should have something and hasn't says why. No scripts, no links out of the page. The page is
-//   well-formed XML too, so that other programs can read it.
-// Units: as ReportInput. Failure: none.
+//   show; a section that should have something and hasn't says why. No scripts, no links out of the
+//   page. The page is well-formed XML too, so that other programs can read it.
+// Units: as ReportInput.
+// Failure: none.
 #pragma once
 
 #include <string>

@@ -41,7 +41,7 @@ std::string target_table(const ReportInput &input, const ReportFit &fit) {
                  in_sd = t.sd > 0 ? (t.simulated - t.measured) / t.sd : no_number;
     const bool noted = !t.why_missing.empty();
     table.row({html_text(t.name), html_number(t.measured, significant(t.measured)),
-               html_number(t.sd, significant(t.sd, 2)),
+               html_number(t.sd, significant_full(t.sd, 2)),
                html_number(t.simulated, significant_full(t.simulated)), unit_cell(t.unit),
                html_number(off, signed_percent(off)), html_number(in_sd, fixed(in_sd, 1)),
                met_tag(t), html_tag(t.in_fit ? "fitted" : "predicted", "plain"), source_cell(t)},
@@ -56,7 +56,7 @@ std::string scatter_words(const ReportFit &fit) {
   std::vector<std::string> words;
   for (const ReportTarget &t : fit.targets)
     if (std::isfinite(t.noise_sd) && t.measured != 0)
-      words.push_back(t.name + " by " + fixed(100 * std::fabs(t.noise_sd / t.measured), 1) +
+      words.push_back(t.name + " by " + significant(100 * std::fabs(t.noise_sd / t.measured), 2) +
                       "\u00a0%");
   if (words.empty()) return "";
   return html_paragraph("Under tiny changes of the parameters single runs scatter: " +
@@ -82,7 +82,7 @@ std::string parameter_table(const ReportFit &fit) {
     for (const std::string &name : p.sets) sets += (sets.empty() ? "" : ", ") + name;
     const bool noted = !p.reason.empty();
     table.row({html_text(p.name), html_number(p.value, significant_full(p.value)),
-               html_number(p.sd, significant(p.sd, 2)), unit_cell(p.unit),
+               html_number(p.sd, significant_full(p.sd, 2)), unit_cell(p.unit),
                range(p.interval_lower, p.interval_upper, significant_full),
                range(p.lower, p.upper, significant), yes_no(p.at_bound, false),
                yes_no(p.identifiable, true), sets.empty() ? "\u2013" : html_text(sets)},
@@ -110,9 +110,14 @@ std::string correlation_words(const ReportFit &fit) {
                         ": a change of one is made up for by the other.");
 }
 
-std::vector<std::string> finding_texts(const ReportFit &fit) {
+// What the study asks about comes first; the spans of what was reached are for the record. What the
+// verdict says already isn't said again.
+std::vector<std::string> finding_texts(const ReportFit &fit, bool for_the_record) {
   std::vector<std::string> texts;
-  for (const ReportFinding &finding : fit.findings) texts.push_back(as_sentence(finding.text));
+  for (const ReportFinding &finding : fit.findings)
+    if ((finding.kind == "reachable") == for_the_record &&
+        fit.verdict.find(finding.text) == std::string::npos)
+      texts.push_back(as_sentence(finding.text));
   return texts;
 }
 
@@ -126,7 +131,11 @@ std::vector<std::string> note_texts(const ReportFit &fit) {
 // result.
 std::string notes_html(const ReportFit &fit) {
   std::string html;
-  if (!fit.findings.empty()) html += "<h3>What the runs say</h3>\n" + html_list(finding_texts(fit));
+  const std::vector<std::string> said = finding_texts(fit, false), spans = finding_texts(fit, true);
+  if (!said.empty()) html += "<h3>What the runs say</h3>\n" + html_list(said);
+  if (!spans.empty())
+    html +=
+        "<details><summary>What the runs reached</summary>\n" + html_list(spans) + "</details>\n";
   if (!fit.notes.empty())
     html += "<details><summary>What the fit did, step by step</summary>\n" +
             html_list(note_texts(fit)) + "</details>\n";
@@ -185,7 +194,7 @@ std::string packings_section(const ReportInput &input) {
       table.row({html_text(p.name), html_number(p.measured, significant(p.measured)),
                  html_number(p.used, significant_full(p.used)),
                  html_number(p.mean, significant_full(p.mean)),
-                 html_number(p.sd, significant(p.sd, 2)), unit_cell(p.unit),
+                 html_number(p.sd, significant_full(p.sd, 2)), unit_cell(p.unit),
                  html_number(off, signed_percent(off)),
                  count_text(static_cast<long>(p.values.size())), each.empty() ? "\u2013" : each});
     }
@@ -202,10 +211,10 @@ std::string packings_section(const ReportInput &input) {
     for (const ReportSpecimen &s : input.specimens)
       table.row({html_text(s.name), html_text(s.shape), html_text(s.size),
                  s.particles > 0 ? count_text(s.particles) : "\u2013",
-                 html_number(s.r_min, significant(1e3 * s.r_min, 3)) + " to " +
-                     html_number(s.r_max, significant(1e3 * s.r_max, 3)),
-                 html_number(s.porosity, significant(s.porosity, 3)),
-                 html_number(s.coordination, significant(s.coordination, 3)),
+                 html_number(s.r_min, significant_full(1e3 * s.r_min, 3)) + " to " +
+                     html_number(s.r_max, significant_full(1e3 * s.r_max, 3)),
+                 html_number(s.porosity, significant_full(s.porosity, 3)),
+                 html_number(s.coordination, significant_full(s.coordination, 3)),
                  html_text(s.seed.empty() ? "\u2013" : s.seed)});
     specimens = "<h3>Specimens and particle size</h3>\n" + table.html();
   }

@@ -2,8 +2,9 @@
 //
 // Job: how the page looks: type, tables, figures, on screen (light and dark) and on paper.
 // Method: one style sheet inside the page; fonts are the reader's own, so that nothing is fetched.
-// Colours come from
-//   palette.h as CSS variables. Units: none. Failure: none.
+//   Colours come from palette.h as CSS variables.
+// Units: none.
+// Failure: none.
 #pragma once
 
 #include <string>

@@ -2,12 +2,12 @@
 //
 // Job: every colour of the report, once, with its light and its dark value.
 // Method: pictures are drawn in the light values, as files of their own must be; when a picture is
-// put into the page each
-//   light value is replaced by the CSS variable of its role, so that the page follows the reader's
-//   light or dark setting. The light values are all different, so that the replacement is unique.
-//   Series colours differ in lightness, not in hue alone, so that they can be told apart by
-//   colour-blind readers and on grey prints.
-// Units: none. Failure: none.
+//   put into the page each light value is replaced by the CSS variable of its role, so that the
+//   page follows the reader's light or dark setting. The light values are all different, so that
+//   the replacement is unique. Series colours differ in lightness, not in hue alone, so that they
+//   can be told apart by colour-blind readers and on grey prints.
+// Units: none.
+// Failure: none.
 #pragma once
 
 #include <string>

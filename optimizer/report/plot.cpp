@@ -169,7 +169,6 @@ std::vector<LegendEntry> legend_of(const Plot &plot) {
   for (const PlotPanel &panel : plot.panels)
     for (const PlotSeries &series : panel.series)
       if (drawable(series)) all.push_back(&series);
-  for (const PlotSeries &series : plot.extra_legend) all.push_back(&series);
   double x = 12;
   int row = 0;
   for (const PlotSeries *series : all) {
@@ -351,7 +350,7 @@ std::string plot_script(const Plot &plot) {
         number(x0 / plot.width), number(x1 / plot.width), number(1 - y0 / plot.height),
         number(1 - y1 / plot.height));
     const bool bottom_labels = !plot.shared_axes || p + columns >= plot.panels.size();
-    out += axis_lines("x", panel.x, range_of(panel, 'x'), bottom_labels, x1 - x0, 70);
+    out += axis_lines("x", panel.x, range_of(panel, 'x'), bottom_labels, x1 - x0, 58);
     out += axis_lines("y", panel.y, range_of(panel, 'y'), !plot.shared_axes || column == 0, y1 - y0,
                       34);
     if (panel.has_right_axis()) {

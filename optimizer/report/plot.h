@@ -2,14 +2,13 @@
 //
 // Job: a line or scatter plot as data, and the gnuplot script and data file that draw it.
 // Method: one Plot is a grid of panels with explicit axis ranges; the script places every panel and
-// the legend at fixed
-//   pixels, because gnuplot's own legend overlaps data or is cut when its guess of the text width
-//   is wrong. The data go into a TSV file beside the script (one block a series), so that a reader
-//   can draw the plot again or anew. Words of the user enter the script only inside single quotes,
-//   where gnuplot runs no commands.
-// Units: pixels for the layout; data as the axis labels say. Failure: none; series without a finite
-// point are left out and
-//   an empty panel says "no data". Limits: at most one right-hand axis a panel.
+//   the legend at fixed pixels, because gnuplot's own legend overlaps data or is cut when its guess
+//   of the text width is wrong. The data go into a TSV file beside the script (one block a series),
+//   so that a reader can draw the plot again or anew. Words of the user enter the script only
+//   inside single quotes, where gnuplot runs no commands.
+// Units: pixels for the layout; data as the axis labels say.
+// Failure: none; series without a finite point are left out and an empty panel says "no data".
+// Limits: at most one right-hand axis a panel.
 #pragma once
 
 #include <optional>
@@ -52,8 +51,6 @@ struct Plot {
   int columns = 1;
   bool shared_axes = false;       // tick labels only at the left and the bottom of the grid
   std::vector<PlotPanel> panels;  // row by row
-  std::vector<PlotSeries>
-      extra_legend;  // entries whose series stand in no single panel; data ignored
 };
 
 std::string plot_data(const Plot &plot);    // TSV

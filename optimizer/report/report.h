@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // Job: one self-contained HTML page that says what a study found, with the pictures and plotted
-// data beside it. Method: ReportInput is the content of result.json as plain data (result_json.h
-// reads and writes it). write_report()
-//   draws from it and from the files of the runs it names: curves by gnuplot, specimens by our own
-//   SVG writer. Everything is made in a staging directory first and moved into place at the end, so
-//   that a report is either the old one or the new one. The same input gives the same bytes: no
-//   dates, no machine names.
+//   data beside it.
+// Method: ReportInput is the content of result.json as plain data (result_json.h reads and writes
+//   it). write_report() draws from it and from the files of the runs it names: curves by gnuplot,
+//   specimens by our own SVG writer. Everything is made in a staging directory first and moved into
+//   place at the end, so that a report is either the old one or the new one. The same input gives
+//   the same bytes: no dates, no machine names.
 // Why an own struct and not the fit's: `bondlab report DIR` rebuilds the page from DIR alone, long
-// after the fit. Units: a number with a `unit` beside it is in that unit; everything else is in SI
-// (s, m, Pa, N). NaN means "none" and is
-//   null in the JSON.
+//   after the fit.
+// Units: a number with a `unit` beside it is in that unit; everything else is in SI (s, m, Pa, N).
+//   NaN means "none" and is null in the JSON.
 // Failure: UserError when gnuplot is missing or fails or a file can't be written. A run file that
-// is missing or damaged
-//   isn't an error: the page says so in that picture's place. Limits: pictures of 2D specimens and
-//   mid-plane slices of 3D.
+//   is missing or damaged isn't an error: the page says so in that picture's place.
+// Limits: pictures of 2D specimens and mid-plane slices of 3D.
 #pragma once
 
 #include <filesystem>
@@ -73,8 +72,8 @@ struct ReportFinding {
                      // quality, failure ...
   std::string text;  // plain words
   std::vector<std::string> targets;
-  double measured = no_number, low = no_number,
-         high = no_number;  // figure or ratio (SI) and its span over all runs
+  double measured = no_number;               // figure or ratio, SI
+  double low = no_number, high = no_number;  // its span over all runs
   int points = 0;
 };
 

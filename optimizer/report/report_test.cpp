@@ -346,14 +346,14 @@ const Hole holes[] = {
        for (ReportFit &f : r.fits) f.history.resize(1);
        r.points.resize(1);
      },
-     {"Misfit over the runs"}},
+     {"Misfit: fit"}},
     {"every_point_failed",
      [](ReportInput &r, const fs::path &) {
        for (ReportFit &f : r.fits)
          for (ReportStep &s : f.history) s.misfit = s.best_misfit = no_number;
        for (ReportPoint &p : r.points) p.responses.clear();
      },
-     {"Parameters over the runs"}},
+     {"Parameters: fit"}},
     {"no_parameters",
      [](ReportInput &r, const fs::path &) {
        for (ReportFit &f : r.fits) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // Job: what lies in a result's directory besides the fit's own result: the runs made and the
-// figures of the packings. Method: runs/*/manifest.json and specimens/SHAPE-KEY.json are read as
-// they stand. The files are the record: they move with
-//   the directory and need neither the study nor the store.
-// Units: SI. Failure: none; a file that is missing or damaged is left out, since the result stands
-// without it.
+//   figures of the packings.
+// Method: runs/*/manifest.json and specimens/SHAPE-KEY.json are read as they stand. The files are
+//   the record: they move with the directory and need neither the study nor the store.
+// Units: SI.
+// Failure: none; a file that is missing or damaged is left out, since the result stands without it.
 #pragma once
 
 #include <filesystem>

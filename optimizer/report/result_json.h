@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // Job: result.json, the machine-readable result of a study: everything the report shows, for other
-// programs and for
-//   `bondlab report`.
+//   programs and for `bondlab report`.
 // Method: one JSON object. The first fit stands at the top (`targets`, `parameters`, `runs`,
-// `packings`, `replay` ...), the
-//   second under `tradeoff` in the same shape, any further under `more_fits`. Numbers are written
-//   so that they read back to the same bits; NaN is null. Written to a temporary file that is
-//   renamed, so that no half of a result is ever seen.
+//   `packings`, `replay` ...), the second under `tradeoff` in the same shape, any further under
+//   `more_fits`. Numbers are written so that they read back to the same bits; NaN is null. Written
+//   to a temporary file that is renamed, so that no half of a result is ever seen.
 // Units: each number with a `unit` beside it is in that unit, everything else in SI.
 // Failure: UserError with the file, and the key where one is missing or of another type, or another
-// format version.
+//   format version.
 #pragma once
 
 #include <filesystem>

@@ -2,16 +2,16 @@
 //
 // Job: a picture of a specimen at the end of its test, with every broken bond drawn as a crack.
 // Method: 2D specimens are drawn whole; of 3D ones a slice (uniaxial: the plane through the axis;
-// Brazilian: the middle
-//   of the thickness), spheres as the circles the plane cuts out of them, cracks within one mean
-//   radius of it. A crack is a segment across the line of its two particles, as long as the bond
-//   was wide (twice the smaller radius). While the two are still near (less than 1.5 times the sum
-//   of their radii apart) it lies between them at the end, so that it moves with its grains;
-//   otherwise it lies at the place of breaking. Colour tells the mode, shade the time: before 90 %
-//   of the peak load, from there to the peak, after it.
-// Units: SI in, pixels out. Failure: none; without particles there is no picture (empty string).
+//   Brazilian: the middle of the thickness), spheres as the circles the plane cuts out of them,
+//   cracks within one mean radius of it. A crack is a segment across the line of its two particles,
+//   as long as the bond was wide (twice the smaller radius). While the two are still near (less
+//   than 1.5 times the sum of their radii apart) it lies between them at the end, so that it moves
+//   with its grains; otherwise it lies at the place of breaking. Colour tells the mode, shade the
+//   time: before 90 % of the peak load, from there to the peak, after it.
+// Units: SI in, pixels out.
+// Failure: none; without particles there is no picture (empty string).
 // Limits: a crack whose particles are not in the file is a dot; particles far outside the body are
-// not drawn, but counted.
+//   not drawn, but counted.
 #pragma once
 
 #include <string>

@@ -2,11 +2,12 @@
 //
 // Job: write SVG that is small, well-formed and the same for the same input.
 // Method: a thin writer of elements; coordinates are in pixels of the picture, rounded to two
-// decimals without trailing
-//   zeros, because thousands of discs go into one page. xml_escape() serves HTML text and
-//   attributes as well: it replaces the five characters with a meaning and drops what XML 1.0
-//   forbids (control characters, broken UTF-8).
-// Units: pixels. Failure: none. Limits: what the report needs, not all of SVG.
+//   decimals without trailing zeros, because thousands of discs go into one page. xml_escape()
+//   serves HTML text and attributes as well: it replaces the five characters with a meaning and
+//   drops what XML 1.0 forbids (control characters, broken UTF-8).
+// Units: pixels.
+// Failure: none.
+// Limits: what the report needs, not all of SVG.
 #pragma once
 
 #include <string>

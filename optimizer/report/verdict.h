@@ -2,10 +2,9 @@
 //
 // Job: say in plain sentences what a fit met and what it missed, and by how much.
 // Method: from the table of targets alone, so that words and table can't disagree. The fit's own
-// verdict, where there is
-//   one, stands before these.
-// Units: those of the targets. Failure: none; a target without a simulated value is named as not
-// simulated.
+//   verdict, where there is one, stands before these.
+// Units: those of the targets.
+// Failure: none; a target without a simulated value is named as not simulated.
 #pragma once
 
 #include <string>

@@ -2,10 +2,11 @@
 //
 // Job: say whether a text is well-formed XML, and find elements in it; for tests only.
 // Method: a small parser of its own (tags, attributes, the five entities and character references,
-// comments, DOCTYPE), so
-//   that the writer isn't checked by the code that wrote. Ids must be unique.
-// Units: none. Failure: `error` says what is wrong and near which text. Limits: no CDATA, no
-// processing instructions.
+//   comments, DOCTYPE), so that the writer isn't checked by the code that wrote. Ids must be
+//   unique.
+// Units: none.
+// Failure: `error` says what is wrong and near which text.
+// Limits: no CDATA, no processing instructions.
 #pragma once
 
 #include <cctype>
