@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Job: `bondlab check STUDY`: everything that is wrong with a study, or what it will do and how long that takes.
-// Method: the study, its tests, data and responses are read and judged; nothing is run or written. Seconds a run come from
+// Job: `bondlab check STUDY`: everything that is wrong with a study, or what it will do and how
+// long that takes. Method: the study, its tests, data and responses are read and judged; nothing is
+// run or written. Seconds a run come from
 //   the study's earlier runs where there are some, else from an estimate, which is marked.
 // Units: shown in those of the study. Failure: exit status as in commands.h.
 #include <fmt/core.h>
@@ -14,7 +15,7 @@
 #include "base/units.h"
 #include "forward/engine_forward_model.h"
 #include "forward/run_cost.h"
-#include "refine/fit_driver.h"
+#include "refine/fit_plan.h"
 #include "response/check.h"
 #include "study/parameter_space.h"
 
@@ -38,9 +39,13 @@ std::string in_words(double seconds) {
 std::string size_of(const SpecimenEntry &s) {
   const auto mm = [](double length) { return format_quantity(length, "mm"); };
   switch (s.shape) {
-    case SpecimenShape::rectangle: return fmt::format("rectangle {} x {}, thickness {}", mm(s.width), mm(s.height), mm(s.thickness));
-    case SpecimenShape::disc: return fmt::format("disc of {}, thickness {}", mm(s.diameter), mm(s.thickness));
-    case SpecimenShape::cylinder: return fmt::format("cylinder of {}, height {}", mm(s.diameter), mm(s.height));
+    case SpecimenShape::rectangle:
+      return fmt::format("rectangle {} x {}, thickness {}", mm(s.width), mm(s.height),
+                         mm(s.thickness));
+    case SpecimenShape::disc:
+      return fmt::format("disc of {}, thickness {}", mm(s.diameter), mm(s.thickness));
+    case SpecimenShape::cylinder:
+      return fmt::format("cylinder of {}, height {}", mm(s.diameter), mm(s.height));
   }
   return "";
 }
@@ -50,43 +55,53 @@ std::map<std::string, std::optional<RunCost>> costs_of(const Study &study, const
   const ParameterSpace space(study.parameters);
   std::map<std::string, std::optional<RunCost>> costs;
   for (const TestEntry &test : study.tests)
-    costs[test.name] = run_cost(plan_run(study, {test.name, deck_variables(study, test.name, space.start().x), 0}), store);
+    costs[test.name] = run_cost(
+        plan_run(study, {test.name, deck_variables(study, test.name, space.start().x), 0}), store);
   return costs;
 }
 
 void print_specimens(const Study &study) {
   fmt::print("specimens\n");
   for (const SpecimenEntry &s : study.specimens)
-    fmt::print("  {:<14} {}; radii {} to {}, about {:.0f} particles, seed {}\n", s.name, size_of(s), format_quantity(s.r_min, "mm"),
-               format_quantity(s.r_min * s.r_ratio, "mm"), expected_particles(s), s.seed);
+    fmt::print("  {:<14} {}; radii {} to {}, about {:.0f} particles, seed {}\n", s.name, size_of(s),
+               format_quantity(s.r_min, "mm"), format_quantity(s.r_min * s.r_ratio, "mm"),
+               expected_particles(s), s.seed);
 }
 
 void print_tests(const Study &study, const std::map<std::string, std::optional<RunCost>> &costs) {
   fmt::print("tests\n");
   for (const TestEntry &test : study.tests) {
     const auto &cost = costs.at(test.name);
-    const std::string seconds = !cost ? "time of a run unknown before the first" : in_words(cost->seconds) + (cost->measured ? " a run" : " a run (estimate)");
-    fmt::print("  {:<14} {} on {}, {} {}, {}, wall limit {}\n", test.name, test.definition.name, test.specimen, test.ranks, test.ranks == 1 ? "rank" : "ranks",
-               seconds, in_words(test.wall_limit));
+    const std::string seconds =
+        !cost ? "time of a run unknown before the first"
+              : in_words(cost->seconds) + (cost->measured ? " a run" : " a run (estimate)");
+    fmt::print("  {:<14} {} on {}, {} {}, {}, wall limit {}\n", test.name, test.definition.name,
+               test.specimen, test.ranks, test.ranks == 1 ? "rank" : "ranks", seconds,
+               in_words(test.wall_limit));
   }
 }
 
 void print_identification(const Study &study) {
   if (!study.parameters.empty()) fmt::print("parameters\n");
   for (const Parameter &p : study.parameters)
-    fmt::print("  {:<14} {} to {}, {}; sets {}\n", p.name, format_quantity(p.lower, p.unit), format_quantity(p.upper, p.unit),
-               p.scale == Scale::logarithmic ? "log" : "linear", join(p.sets));
+    fmt::print("  {:<14} {} to {}, {}; sets {}\n", p.name, format_quantity(p.lower, p.unit),
+               format_quantity(p.upper, p.unit), p.scale == Scale::logarithmic ? "log" : "linear",
+               join(p.sets));
   if (!study.targets.empty()) fmt::print("targets\n");
   for (const Target &t : study.targets)
-    fmt::print("  {:<14} {}, sd {} ({} of test {})\n", t.name, format_quantity(t.value, t.unit), format_quantity(t.sd, t.unit), t.response, t.test);
+    fmt::print("  {:<14} {}, sd {} ({} of test {})\n", t.name, format_quantity(t.value, t.unit),
+               format_quantity(t.sd, t.unit), t.response, t.test);
   if (!study.data) return;
   fmt::print("measured curves\n");
   for (const Measurement &series : study.data->measurements)
-    fmt::print("  {:<14} {}({}), {} {}\n", series.name, series.y, series.x, series.replicates.size(), series.replicates.size() == 1 ? "specimen" : "specimens");
+    fmt::print("  {:<14} {}({}), {} {}\n", series.name, series.y, series.x,
+               series.replicates.size(), series.replicates.size() == 1 ? "specimen" : "specimens");
 }
 
-// Runs and time of each fit. The runs of a fit are spread over its tests evenly: near enough for a plan.
-void print_fits(const Study &study, const std::map<std::string, std::optional<RunCost>> &costs, int jobs, int cores) {
+// Runs and time of each fit. The runs of a fit are spread over its tests evenly: near enough for a
+// plan.
+void print_fits(const Study &study, const std::map<std::string, std::optional<RunCost>> &costs,
+                int jobs, int cores) {
   if (study.fits.empty()) return;
   fmt::print("fits\n");
   double core_seconds = 0;
@@ -112,12 +127,15 @@ void print_fits(const Study &study, const std::map<std::string, std::optional<Ru
     const int up_to_here = expected_runs(study, before), of_this = up_to_here - runs;
     runs = up_to_here;
     core_seconds += of_this * sum / static_cast<double>(tests.size());
-    fmt::print("  {:<14} {}{}: about {} runs\n", fit.name, join(fit.targets), fit.predicted.empty() ? "" : "; predicted: " + join(fit.predicted), of_this);
+    fmt::print("  {:<14} {}{}: about {} runs\n", fit.name, join(fit.targets),
+               fit.predicted.empty() ? "" : "; predicted: " + join(fit.predicted), of_this);
   }
   const int at_a_time = jobs > 0 ? jobs : most_at_a_time;
   if (known)
-    fmt::print("total: about {} runs x {} = {} of computing, about {} with {} at a time{}\n", runs, in_words(core_seconds / runs), in_words(core_seconds),
-               in_words(core_seconds / at_a_time), at_a_time, measured ? "" : " (estimate; the first runs will tell)");
+    fmt::print("total: about {} runs x {} = {} of computing, about {} with {} at a time{}\n", runs,
+               in_words(core_seconds / runs), in_words(core_seconds),
+               in_words(core_seconds / at_a_time), at_a_time,
+               measured ? "" : " (estimate; the first runs will tell)");
   else
     fmt::print("total: about {} runs, {} at a time\n", runs, at_a_time);
 }
@@ -150,11 +168,14 @@ void check(const Options &options) {
 }  // namespace
 
 void add_check(CLI::App &app) {
-  CLI::App *command = app.add_subcommand("check", "look for everything that is wrong with a study, and say how long it will take");
+  CLI::App *command = app.add_subcommand(
+      "check", "look for everything that is wrong with a study, and say how long it will take");
   const auto options = std::make_shared<Options>();
   command->add_option("study", options->study, "study file (TOML)")->required();
-  command->add_option("--jobs", options->jobs, "runs at a time; 0: as many as the cores take")->check(CLI::NonNegativeNumber);
-  command->add_option("--out", options->out, "results folder with earlier runs (default: bondlab-results/<study>)");
+  command->add_option("--jobs", options->jobs, "runs at a time; 0: as many as the cores take")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--out", options->out,
+                      "results folder with earlier runs (default: bondlab-results/<study>)");
   command->callback([options] { check(*options); });
 }
 

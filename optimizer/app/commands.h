@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // Job: the subcommands of `bondlab`, one file each; main.cpp puts them together.
-// Method: add_X() adds the subcommand and its options to the application and a callback that does the work. A callback
-//   returns normally for exit status 0 and throws otherwise: UserError (1), RunsFailed (2), Interrupted (130 or 143),
-//   anything else (3).
+// Method: add_X() adds the subcommand and its options to the application and a callback that does
+// the work. A callback
+//   returns normally for exit status 0 and throws otherwise: UserError (1), RunsFailed (2),
+//   Interrupted (130 or 143), anything else (3).
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,7 +13,8 @@
 
 namespace bondlab {
 
-// Forward runs failed beyond what the policy allows: exit status 2. The text names the runs and where they are kept.
+// Forward runs failed beyond what the policy allows: exit status 2. The text names the runs and
+// where they are kept.
 class RunsFailed : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

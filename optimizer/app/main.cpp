@@ -3,8 +3,9 @@
 // bondlab: identify the parameters of bonded-particle models from measured properties.
 //
 // Job: put the subcommands together and turn what they throw into messages and exit statuses.
-// Exit status: 0 done; 1 something the user can mend, told as `error: file:line:column: what, and what is allowed`; 2 forward
-// runs failed beyond what the policy allows; 3 a fault of ours; 128 + n ended by signal n.
+// Exit status: 0 done; 1 something the user can mend, told as `error: file:line:column: what, and
+// what is allowed`; 2 forward runs failed beyond what the policy allows; 3 a fault of ours; 128 + n
+// ended by signal n.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -26,7 +27,9 @@ void refuse_unknown_command(const CLI::App &app, int argc, char **argv) {
   for (const CLI::App *command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
   if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
   const std::string near = bondlab::nearest_word(argv[1], names);
-  throw bondlab::UserError(std::string("there is no command '") + argv[1] + "'" + (near.empty() ? "" : " (did you mean '" + near + "'?)") + "; commands: " + bondlab::join(names));
+  throw bondlab::UserError(std::string("there is no command '") + argv[1] + "'" +
+                           (near.empty() ? "" : " (did you mean '" + near + "'?)") +
+                           "; commands: " + bondlab::join(names));
 }
 
 void print_error(const std::string &text) { std::fprintf(stderr, "error: %s\n", text.c_str()); }
@@ -34,7 +37,9 @@ void print_error(const std::string &text) { std::fprintf(stderr, "error: %s\n", 
 }  // namespace
 
 int main(int argc, char **argv) {
-  CLI::App app("BondLab: identify the parameters of bonded-particle models from measured properties", "bondlab");
+  CLI::App app(
+      "BondLab: identify the parameters of bonded-particle models from measured properties",
+      "bondlab");
   app.set_version_flag("--version", "bondlab " BONDLAB_VERSION);
   app.require_subcommand(1);
   try {
@@ -67,7 +72,8 @@ int main(int argc, char **argv) {
     print_error("not enough memory");
     return kInternalError;
   } catch (const std::exception &error) {
-    print_error(std::string("internal: ") + error.what() + " (a fault of bondlab: please report it with the command and the study)");
+    print_error(std::string("internal: ") + error.what() +
+                " (a fault of bondlab: please report it with the command and the study)");
     return kInternalError;
   }
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Job: `bondlab run STUDY`: one point of a study through its tests, with the responses beside what was measured.
-// Method: parameters have their start values unless --set gives others (also outside the bounds, which are the fit's); runs
+// Job: `bondlab run STUDY`: one point of a study through its tests, with the responses beside what
+// was measured. Method: parameters have their start values unless --set gives others (also outside
+// the bounds, which are the fit's); runs
 //   go through the study's run store, so that a point known already costs nothing.
-// Units: --set takes quantities with units; responses are shown in the units of their targets. Failure: exit status 2 with
+// Units: --set takes quantities with units; responses are shown in the units of their targets.
+// Failure: exit status 2 with
 //   cause, folder and last log lines when a run fails.
 #include <fmt/core.h>
 #include <unistd.h>
@@ -32,7 +34,8 @@ struct Options {
 // "E_c=25 GPa" into the values, which stand in the order of the study's parameters.
 void set_parameter(const Study &study, const std::string &text, std::vector<double> &values) {
   const std::size_t equals = text.find('=');
-  if (equals == std::string::npos) throw UserError("--set '" + text + "': write NAME=VALUE, for example E_c=\"25 GPa\"");
+  if (equals == std::string::npos)
+    throw UserError("--set '" + text + "': write NAME=VALUE, for example E_c=\"25 GPa\"");
   const std::string name = text.substr(0, equals);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < study.parameters.size(); ++i) {
@@ -46,8 +49,9 @@ void set_parameter(const Study &study, const std::string &text, std::vector<doub
     return;
   }
   const std::string near = nearest_word(name, names);
-  throw UserError("--set: the study has no parameter '" + name + "'" + (near.empty() ? "" : " (did you mean '" + near + "'?)") + "; it has: " +
-                  (names.empty() ? "none" : join(names)));
+  throw UserError("--set: the study has no parameter '" + name + "'" +
+                  (near.empty() ? "" : " (did you mean '" + near + "'?)") +
+                  "; it has: " + (names.empty() ? "none" : join(names)));
 }
 
 const Target *target_of(const Study &study, const std::string &test, const std::string &response) {
@@ -57,17 +61,19 @@ const Target *target_of(const Study &study, const std::string &test, const std::
 }
 
 void print_responses(const Study &study, const TestEntry &test, const ForwardOutcome &outcome) {
-  fmt::print("{}: run {}, {:.1f} s{}\n", test.name, outcome.run_id, outcome.wall_seconds, outcome.from_store ? " (from the store)" : "");
+  fmt::print("{}: run {}, {:.1f} s{}\n", test.name, outcome.run_id, outcome.wall_seconds,
+             outcome.from_store ? " (from the store)" : "");
   for (const auto &[name, response] : test.definition.responses) {
     const Target *target = target_of(study, test.name, name);
-    const std::string unit = target ? target->unit : response.unit;
     std::string shown, beside;
     try {
       const double value = evaluate(response.function, outcome.curve, {outcome.deck_variables});
+      const std::string unit = target ? target->unit : readable_unit(value, response.unit);
       shown = format_quantity(value, unit);
       if (target)
-        beside = fmt::format("measured {}, {:+.1f} %, {:+.1f} sd", format_quantity(target->value, unit), 100 * (value / target->value - 1),
-                             (value - target->value) / target->sd);
+        beside =
+            fmt::format("measured {}, {:+.1f} %, {:+.1f} sd", format_quantity(target->value, unit),
+                        100 * (value / target->value - 1), (value - target->value) / target->sd);
     } catch (const ResponseError &error) {
       shown = std::string("none: ") + error.what();
     }
@@ -84,7 +90,9 @@ class ProgressLine {
   }
   void show(const BatchProgress &progress) {
     if (!terminal_ || progress.total == progress.from_store) return;
-    std::string line = fmt::format("{} of {} runs done, {} running, {:.0f} s", progress.done + progress.failed, progress.total, progress.running, progress.elapsed);
+    std::string line =
+        fmt::format("{} of {} runs done, {} running, {:.0f} s", progress.done + progress.failed,
+                    progress.total, progress.running, progress.elapsed);
     if (progress.left >= 0) line += fmt::format(", about {:.0f} s left", std::ceil(progress.left));
     fmt::print(stderr, "\r\033[K{}", line);
     std::fflush(stderr);
@@ -105,7 +113,8 @@ void run(const Options &options) {
   if (tests.empty())
     for (const TestEntry &test : study.tests) tests.push_back(test.name);
   std::vector<ForwardRequest> requests;
-  for (const std::string &test : tests) requests.push_back({test, deck_variables(study, test, values), options.packing});
+  for (const std::string &test : tests)
+    requests.push_back({test, deck_variables(study, test, values), options.packing});
 
   ForwardSettings settings;
   settings.results = results_directory(options.out, study.name);
@@ -120,7 +129,8 @@ void run(const Options &options) {
   }
 
   for (std::size_t i = 0; i < study.parameters.size(); ++i)
-    fmt::print("{:<18} {}\n", study.parameters[i].name, format_quantity(values[i], study.parameters[i].unit, 6));
+    fmt::print("{:<18} {}\n", study.parameters[i].name,
+               format_quantity(values[i], study.parameters[i].unit, 6));
   std::string failures;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     if (outcomes[i].ok) {
@@ -128,8 +138,11 @@ void run(const Options &options) {
       continue;
     }
     const Failure &failure = outcomes[i].failure;
-    failures += fmt::format("{}the test '{}' failed ({}): {}", failures.empty() ? "" : "\n", tests[i], to_string(failure.cause), failure.message);
-    if (!failure.run_directory.empty()) failures += fmt::format("\n  kept in {}\n  replay: {}", failure.run_directory, failure.command);
+    failures += fmt::format("{}the test '{}' failed ({}): {}", failures.empty() ? "" : "\n",
+                            tests[i], to_string(failure.cause), failure.message);
+    if (!failure.run_directory.empty())
+      failures +=
+          fmt::format("\n  kept in {}\n  replay: {}", failure.run_directory, failure.command);
     if (!failure.log_tail.empty()) failures += "\n  last lines of its log:\n" + failure.log_tail;
   }
   if (!failures.empty()) throw RunsFailed(failures);
@@ -141,10 +154,18 @@ void add_run(CLI::App &app) {
   CLI::App *command = app.add_subcommand("run", "run one point of a study and show its responses");
   const auto options = std::make_shared<Options>();
   command->add_option("study", options->study, "study file (TOML)")->required();
-  command->add_option("--set", options->set, "a parameter's value, such as E_c=\"25 GPa\"; more than once for more")->take_all();
-  command->add_option("--test", options->tests, "only this test; more than once for more")->take_all();
-  command->add_option("--packing", options->packing, "another packing: the study's seed plus this number")->check(CLI::NonNegativeNumber);
-  command->add_option("--jobs", options->jobs, "runs at a time; 0: as many as the cores take")->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--set", options->set,
+                   "a parameter's value, such as E_c=\"25 GPa\"; more than once for more")
+      ->take_all();
+  command->add_option("--test", options->tests, "only this test; more than once for more")
+      ->take_all();
+  command
+      ->add_option("--packing", options->packing,
+                   "another packing: the study's seed plus this number")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--jobs", options->jobs, "runs at a time; 0: as many as the cores take")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--out", options->out, "results folder (default: bondlab-results/<study>)");
   command->callback([options] { run(*options); });
 }

@@ -19,7 +19,9 @@ std::uint64_t hash_ints(std::initializer_list<std::uint64_t> values) {
   return hash;
 }
 
-double to_unit_interval(std::uint64_t bits) { return (static_cast<double>(bits >> 12) + 0.5) * 0x1.0p-52; }
+double to_unit_interval(std::uint64_t bits) {
+  return (static_cast<double>(bits >> 12) + 0.5) * 0x1.0p-52;
+}
 
 RandomStream::RandomStream(std::uint64_t seed, std::uint64_t stream) {
   std::uint64_t x = hash_ints({seed, stream});
@@ -46,7 +48,9 @@ std::uint64_t RandomStream::bits() {
 
 double RandomStream::uniform() { return to_unit_interval(bits()); }
 
-double RandomStream::uniform(double lower, double upper) { return lower + (upper - lower) * uniform(); }
+double RandomStream::uniform(double lower, double upper) {
+  return lower + (upper - lower) * uniform();
+}
 
 double RandomStream::normal() {
   if (has_spare_) {
@@ -66,7 +70,8 @@ double RandomStream::normal() {
 std::size_t RandomStream::index(std::size_t count) {
   assert(count > 0);
   const std::uint64_t n = count;
-  const std::uint64_t reject_below = (0 - n) % n;  // 2^64 mod n: draws below it would favour the small indices
+  const std::uint64_t reject_below =
+      (0 - n) % n;  // 2^64 mod n: draws below it would favour the small indices
   for (;;) {
     const std::uint64_t draw = bits();
     if (draw >= reject_below) return static_cast<std::size_t>(draw % n);

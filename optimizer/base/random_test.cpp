@@ -10,7 +10,8 @@
 namespace bondlab {
 namespace {
 
-// Reference values computed with an independent implementation (the generators' published recurrences in Python integers).
+// Reference values computed with an independent implementation (the generators' published
+// recurrences in Python integers).
 TEST(RandomStream, GivesThePublishedSequence) {
   EXPECT_EQ(mix64(0), 0xe220a8397b1dcdafULL);  // first output of splitmix64 seeded with 0
   RandomStream random(1, 2);
@@ -39,7 +40,8 @@ TEST(RandomStream, UniformAndNormalHaveTheirMoments) {
     normal_square += g * g;
     fourth += g * g * g * g;
   }
-  const double five = 5 / std::sqrt(static_cast<double>(n));  // five standard errors, times each quantity's own sd
+  const double five =
+      5 / std::sqrt(static_cast<double>(n));  // five standard errors, times each quantity's own sd
   EXPECT_NEAR(sum / n, 0.5, five * 0.289);
   EXPECT_NEAR(square / n, 1.0 / 3, five * 0.298);
   EXPECT_NEAR(normal_sum / n, 0, five);

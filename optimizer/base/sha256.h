@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // Job: SHA-256 of text and files, for keys under which results are kept for good.
-// Method: FIPS 180-4. Why not a shorter hash: a collision would silently give one run's result for another's.
-// Units: none. Failure: UserError when a file can't be read. Limits: about 300 MB/s; the engine binary is hashed once a command.
+// Method: FIPS 180-4. Why not a shorter hash: a collision would silently give one run's result for
+// another's. Units: none. Failure: UserError when a file can't be read. Limits: about 300 MB/s; the
+// engine binary is hashed once a command.
 #pragma once
 
 #include <array>
@@ -23,7 +24,8 @@ class Sha256 {
  private:
   void block(const unsigned char *bytes);
 
-  std::array<std::uint32_t, 8> state_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+  std::array<std::uint32_t, 8> state_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
+                                      0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
   std::array<unsigned char, 64> buffer_{};
   std::uint64_t length_ = 0;
 };

@@ -14,7 +14,8 @@ TEST(Sha256, GivesTheDigestsOfTheStandard) {  // NIST's examples for FIPS 180-4
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
             "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
-  EXPECT_EQ(sha256(std::string(1000000, 'a')), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+  EXPECT_EQ(sha256(std::string(1000000, 'a')),
+            "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
 TEST(Sha256, DoesNotDependOnHowTheBytesArrive) {
@@ -26,7 +27,8 @@ TEST(Sha256, DoesNotDependOnHowTheBytesArrive) {
     EXPECT_EQ(hash.hex(), sha256(text)) << cut;
   }
   const TestFolder folder;
-  EXPECT_EQ(sha256_file(folder.write("a", std::string(100000, 'b'))), sha256(std::string(100000, 'b')));
+  EXPECT_EQ(sha256_file(folder.write("a", std::string(100000, 'b'))),
+            sha256(std::string(100000, 'b')));
   EXPECT_THROW(sha256_file(folder / "none"), UserError);
 }
 

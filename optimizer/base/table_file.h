@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Job: read a text table strictly: `# key: value` lines, then rows of cells, each known by line and column.
-// Method: the file is read whole and cut into views; nothing is guessed. Lines that begin with '#' are header lines, also
-//   after the rows (`# complete: ...`). Empty lines are skipped. Every row must have as many cells as `# names:` lists.
-// Units: none here; the `# units:` line is handed on. Failure: UserError with file:line:column; NotFinite (a UserError)
+// Job: read a text table strictly: `# key: value` lines, then rows of cells, each known by line and
+// column. Method: the file is read whole and cut into views; nothing is guessed. Lines that begin
+// with '#' are header lines, also
+//   after the rows (`# complete: ...`). Empty lines are skipped. Every row must have as many cells
+//   as `# names:` lists.
+// Units: none here; the `# units:` line is handed on. Failure: UserError with file:line:column;
+// NotFinite (a UserError)
 //   for nan and inf, so that a caller can tell a diverged simulation from a mistyped file.
 // Limits: no quoting: a cell can't contain the separator.
 #pragma once
@@ -38,7 +41,8 @@ class TableFile {
     std::vector<std::string_view> cells;
   };
 
-  // Reads `file`; the separator is '\t' or ','. `# names:` is required, `# units:` must have as many entries when present.
+  // Reads `file`; the separator is '\t' or ','. `# names:` is required, `# units:` must have as
+  // many entries when present.
   TableFile(const std::filesystem::path &file, char separator);
 
   const std::vector<HeaderLine> &header() const { return header_; }
@@ -47,7 +51,9 @@ class TableFile {
   const std::vector<std::string> &units() const { return units_; }
   const std::vector<Row> &rows() const { return rows_; }
   bool last_line_is_whole() const { return last_line_is_whole_; }  // ends with a line break
-  bool header_line_is_last(const HeaderLine &header_line) const { return header_line.line == last_line_; }
+  bool header_line_is_last(const HeaderLine &header_line) const {
+    return header_line.line == last_line_;
+  }
 
   std::size_t column_index(const std::string &name) const;  // UserError that lists the names
   double number(const Row &row, std::size_t column) const;

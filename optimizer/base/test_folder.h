@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // Job: a folder of its own for a test, gone when the test ends; for tests only.
-// Method: mkdtemp below the system's temporary folder. Failure: std::runtime_error when it can't be made.
+// Method: mkdtemp below the system's temporary folder. Failure: std::runtime_error when it can't be
+// made.
 #pragma once
 
 #include <unistd.h>

@@ -23,17 +23,39 @@ TEST(Units, EveryNamedUnitHasItsSiValue) {
   const struct {
     const char *text, *unit;
     double si;
-  } cases[] = {{"41.5 GPa", "Pa", 41.5e9},   {"9.5 MPa", "Pa", 9.5e6},      {"3 kPa", "Pa", 3e3},
-               {"0.66 mm", "m", 0.00066},    {"5 um", "m", 5e-6},           {"2 cm", "m", 0.02},
-               {"120 s", "s", 120},          {"2 ms", "s", 0.002},          {"7 us", "s", 7e-6},
-               {"2 min", "s", 120},          {"1.5 h", "s", 5400},          {"3 kg", "kg", 3},
-               {"3 g", "kg", 0.003},         {"2 kN", "N", 2000},           {"2622 kg/m3", "kg/m3", 2622},
-               {"2.622 g/cm3", "kg/m3", 2622}, {"0.1 m/s", "m/s", 0.1},     {"5 mm/s", "m/s", 0.005},
-               {"6 mm/min", "m/s", 1e-4},    {"0.5", "1", 0.5},             {"3 %", "1", 0.03},
-               {"300 K", "K", 300},          {"20 degC", "K", 293.15},      {"-10 degC", "K", 263.15},
-               {"2 rad", "rad", 2},          {"1e-5 1/s", "1/s", 1e-5},     {"4 J", "J", 4},
-               {"1 kN*m", "J", 1000},        {"1.5 MPa m0.5", "Pa m0.5", 1.5e6}, {"4 GPa/m", "N/m3", 4e9},
-               {"41.5GPa", "Pa", 41.5e9},    {" +2 mm ", "m", 0.002},       {"1e9Pa", "Pa", 1e9}};
+  } cases[] = {{"41.5 GPa", "Pa", 41.5e9},
+               {"9.5 MPa", "Pa", 9.5e6},
+               {"3 kPa", "Pa", 3e3},
+               {"0.66 mm", "m", 0.00066},
+               {"5 um", "m", 5e-6},
+               {"2 cm", "m", 0.02},
+               {"120 s", "s", 120},
+               {"2 ms", "s", 0.002},
+               {"7 us", "s", 7e-6},
+               {"2 min", "s", 120},
+               {"1.5 h", "s", 5400},
+               {"3 kg", "kg", 3},
+               {"3 g", "kg", 0.003},
+               {"2 kN", "N", 2000},
+               {"2622 kg/m3", "kg/m3", 2622},
+               {"2.622 g/cm3", "kg/m3", 2622},
+               {"0.1 m/s", "m/s", 0.1},
+               {"5 mm/s", "m/s", 0.005},
+               {"6 mm/min", "m/s", 1e-4},
+               {"0.5", "1", 0.5},
+               {"3 %", "1", 0.03},
+               {"300 K", "K", 300},
+               {"20 degC", "K", 293.15},
+               {"-10 degC", "K", 263.15},
+               {"2 rad", "rad", 2},
+               {"1e-5 1/s", "1/s", 1e-5},
+               {"4 J", "J", 4},
+               {"1 kN*m", "J", 1000},
+               {"1.5 MPa m0.5", "Pa m0.5", 1.5e6},
+               {"4 GPa/m", "N/m3", 4e9},
+               {"41.5GPa", "Pa", 41.5e9},
+               {" +2 mm ", "m", 0.002},
+               {"1e9Pa", "Pa", 1e9}};
   for (const auto &c : cases) EXPECT_DOUBLE_EQ(parse_quantity(c.text, c.unit), c.si) << c.text;
   EXPECT_DOUBLE_EQ(parse_quantity("180 deg", "rad"), std::acos(-1.0));
 }
@@ -64,13 +86,16 @@ TEST(Units, WrongDimensionNamesTheUnitsAllowed) {
 }
 
 TEST(Units, UnknownUnitSuggestsTheNearest) {
-  EXPECT_NE(message("5 Gpa", "Pa").find("unknown unit 'Gpa' (did you mean 'GPa'?)"), std::string::npos);
-  EXPECT_NE(message("5 furlong", "m").find("unknown unit 'furlong'; known: 1, %, m, cm"), std::string::npos);
+  EXPECT_NE(message("5 Gpa", "Pa").find("unknown unit 'Gpa' (did you mean 'GPa'?)"),
+            std::string::npos);
+  EXPECT_NE(message("5 furlong", "m").find("unknown unit 'furlong'; known: 1, %, m, cm"),
+            std::string::npos);
 }
 
 TEST(Units, MalformedQuantitiesAreRefused) {
-  for (const char *text : {"", "  ", "GPa", "1,5 GPa", "1_000 Pa", "nan Pa", "inf Pa", "1e999 Pa", "1/s", "5 m/", "5 m//s",
-                           "5 m0.3", "5 m^", "5 J/kg K", "5 degC/s", "5 m99", "0x10 m", "5 $"})
+  for (const char *text :
+       {"", "  ", "GPa", "1,5 GPa", "1_000 Pa", "nan Pa", "inf Pa", "1e999 Pa", "1/s", "5 m/",
+        "5 m//s", "5 m0.3", "5 m^", "5 J/kg K", "5 degC/s", "5 m99", "0x10 m", "5 $"})
     EXPECT_THROW(parse_unit(split_quantity(text).unit), UnitError) << text;
 }
 
@@ -82,6 +107,15 @@ TEST(Units, CanonicalNumberReadsBackToTheSameBits) {
   }
   EXPECT_EQ(canonical_number(-0.0), "0");
   EXPECT_EQ(canonical_number(0.1), "0.1");
+}
+
+TEST(Units, ReadableUnitAvoidsLongNumbers) {
+  EXPECT_EQ(readable_unit(4.1e10, "Pa"), "GPa");
+  EXPECT_EQ(readable_unit(9.5e6, "Pa"), "MPa");
+  EXPECT_EQ(readable_unit(0.00066, "m"), "mm");
+  EXPECT_EQ(readable_unit(0, "Pa"), "Pa");
+  EXPECT_EQ(readable_unit(0.23, "1"), "1");
+  EXPECT_EQ(readable_unit(5e4, "1"), "1");
 }
 
 TEST(Units, FormattingIsTheInverseOfReading) {

@@ -32,7 +32,8 @@ static std::string all_lines(const std::vector<UserError> &errors) {
 }
 
 UserErrors::UserErrors(std::vector<UserError> errors)
-    : UserError(Combined{}, all_lines(errors), errors.at(0).place(), errors.at(0).text()), errors_(std::move(errors)) {}
+    : UserError(Combined{}, all_lines(errors), errors.at(0).place(), errors.at(0).text()),
+      errors_(std::move(errors)) {}
 
 void ErrorCollector::add(const UserError &error) {
   if (const auto *several = dynamic_cast<const UserErrors *>(&error))
@@ -65,8 +66,10 @@ static std::size_t edit_distance(const std::string &a, const std::string &b) {
   for (std::size_t i = 1; i <= a.size(); ++i) {
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before_last[j - 2] + 1);
+      row[j] =
+          std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before_last[j - 2] + 1);
     }
     before_last = last;
     last = row;
@@ -75,10 +78,12 @@ static std::size_t edit_distance(const std::string &a, const std::string &b) {
 }
 
 std::string nearest_word(const std::string &given, const std::vector<std::string> &known) {
-  const auto plain = [](const std::string &word) {  // case and underscores are the commonest slips: they cost nothing
+  const auto plain = [](const std::string &word) {  // case and underscores are the commonest slips:
+                                                    // they cost nothing
     std::string letters;
     for (const char c : word)
-      if (c != '_' && c != '-') letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      if (c != '_' && c != '-')
+        letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return letters;
   };
   std::string best;

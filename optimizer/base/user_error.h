@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Job: errors that a user can cause and mend, each with the place it comes from, reported all at once.
-// Method: UserError is one error (file, line, column, sentence). Checks that can go on after an error put it into an
-//   ErrorCollector and end with throw_if_any(), which throws UserErrors with every error found, ordered by place: a user
-//   mends a file in one pass. UserErrors is a UserError, so that one catch clause serves both.
+// Job: errors that a user can cause and mend, each with the place it comes from, reported all at
+// once. Method: UserError is one error (file, line, column, sentence). Checks that can go on after
+// an error put it into an
+//   ErrorCollector and end with throw_if_any(), which throws UserErrors with every error found,
+//   ordered by place: a user mends a file in one pass. UserErrors is a UserError, so that one catch
+//   clause serves both.
 // Why not assertions or error codes: assertions are for our own mistakes; codes lose the sentence.
-// Units: none. Failure: these are the failures. The library never prints; app/main.cpp writes `error: <what()>`.
+// Units: none. Failure: these are the failures. The library never prints; app/main.cpp writes
+// `error: <what()>`.
 #pragma once
 
 #include <stdexcept>
@@ -14,8 +17,8 @@
 
 namespace bondlab {
 
-// Where in a user's file something stands. line and column count from 1; 0 means unknown. An empty file means that the
-// error has no place in a file (a command-line option, say).
+// Where in a user's file something stands. line and column count from 1; 0 means unknown. An empty
+// file means that the error has no place in a file (a command-line option, say).
 struct Place {
   std::string file;
   int line = 0;
@@ -65,7 +68,8 @@ class ErrorCollector {
   std::vector<UserError> errors_;
 };
 
-// The member of `known` nearest to `given` in spelling, or "" when none is near: "sigmac" -> "sigma_c".
+// The member of `known` nearest to `given` in spelling, or "" when none is near: "sigmac" ->
+// "sigma_c".
 std::string nearest_word(const std::string &given, const std::vector<std::string> &known);
 
 // "a, b, c"; for the list of allowed values at the end of a message.

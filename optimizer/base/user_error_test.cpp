@@ -26,7 +26,8 @@ TEST(ErrorCollector, ThrowsAllErrorsInTheOrderOfTheirPlaces) {
   } catch (const UserErrors &all) {
     EXPECT_EQ(all.errors().size(), 4u);
     EXPECT_STREQ(all.what(),
-                 "study.toml:2:1: earliest\nstudy.toml:2:5: early\nstudy.toml:9:1: late\ntest.toml:1:1: other file");
+                 "study.toml:2:1: earliest\nstudy.toml:2:5: early\nstudy.toml:9:1: "
+                 "late\ntest.toml:1:1: other file");
     ErrorCollector outer;
     outer.add(all);
     EXPECT_EQ(outer.errors().size(), 4u) << "collected errors are taken apart";

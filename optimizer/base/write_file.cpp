@@ -14,7 +14,9 @@ namespace bondlab {
 void write_file(const std::filesystem::path &file, const std::string &text) {
   const std::string temporary = file.string() + "." + std::to_string(getpid()) + ".part";
   std::FILE *stream = std::fopen(temporary.c_str(), "w");
-  if (!stream) throw UserError({file.string(), 0, 0}, std::string("the file can't be written: ") + std::strerror(errno));
+  if (!stream)
+    throw UserError({file.string(), 0, 0},
+                    std::string("the file can't be written: ") + std::strerror(errno));
   const bool written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
   int reason = errno;
   const bool closed = std::fclose(stream) == 0;  // a full disk often shows only here
@@ -22,13 +24,15 @@ void write_file(const std::filesystem::path &file, const std::string &text) {
   if (written && closed && std::rename(temporary.c_str(), file.c_str()) == 0) return;
   if (written && closed) reason = errno;
   std::remove(temporary.c_str());
-  throw UserError({file.string(), 0, 0}, std::string("the file can't be written: ") + std::strerror(reason));
+  throw UserError({file.string(), 0, 0},
+                  std::string("the file can't be written: ") + std::strerror(reason));
 }
 
 void make_folder(const std::filesystem::path &folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw UserError({folder.string(), 0, 0}, "the folder can't be made: " + error.message());
+  if (error)
+    throw UserError({folder.string(), 0, 0}, "the folder can't be made: " + error.message());
 }
 
 }  // namespace bondlab

@@ -15,7 +15,8 @@ TEST(WriteFile, ReplacesAFileWholeAndLeavesNothingBeside) {
   write_file(folder / "a", "second");
   EXPECT_EQ(read_text_file(folder / "a"), "second");
   int entries = 0;
-  for (const auto &entry : std::filesystem::directory_iterator(folder.path())) entries += entry.exists();
+  for (const auto &entry : std::filesystem::directory_iterator(folder.path()))
+    entries += entry.exists();
   EXPECT_EQ(entries, 1);
 }
 
@@ -35,7 +36,8 @@ TEST(WriteFile, AFullDiskLeavesNoHalfAFile) {
   if (!std::filesystem::exists(full)) GTEST_SKIP();
   const TestFolder folder;
   // The temporary name is known: a link in its place sends the text to the full device.
-  std::filesystem::create_symlink(full, (folder / "a").string() + "." + std::to_string(getpid()) + ".part");
+  std::filesystem::create_symlink(
+      full, (folder / "a").string() + "." + std::to_string(getpid()) + ".part");
   try {
     write_file(folder / "a", std::string(100000, 'x'));
     FAIL();

@@ -21,8 +21,8 @@ double squared_distance(const std::vector<double> &a, const std::vector<double> 
   return sum;
 }
 
-// Sum of d^-15 over the pairs that contain one of two points: all that an exchange between them changes. The power is
-// high enough that the closest pair rules the sum, as in a maximin design.
+// Sum of d^-15 over the pairs that contain one of two points: all that an exchange between them
+// changes. The power is high enough that the closest pair rules the sum, as in a maximin design.
 double crowding(const std::vector<std::vector<double>> &points, std::size_t a, std::size_t b) {
   double sum = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -61,7 +61,8 @@ std::vector<std::vector<double>> latin_hypercube(int points, int dimensions, std
 double smallest_distance(const std::vector<std::vector<double>> &points) {
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < points.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) smallest = std::min(smallest, squared_distance(points[i], points[j]));
+    for (std::size_t j = 0; j < i; ++j)
+      smallest = std::min(smallest, squared_distance(points[i], points[j]));
   return std::sqrt(smallest);
 }
 

@@ -22,7 +22,8 @@ TEST(LatinHypercube, EveryStratumOfEveryAxisHoldsOnePoint) {
           ASSERT_LT(u, 1);
           strata.insert(static_cast<int>(std::floor(u * points)));
         }
-        EXPECT_EQ(strata.size(), static_cast<std::size_t>(points)) << points << " points, axis " << k;
+        EXPECT_EQ(strata.size(), static_cast<std::size_t>(points))
+            << points << " points, axis " << k;
       }
     }
 }
@@ -33,9 +34,11 @@ TEST(LatinHypercube, SameSeedSamePointsOtherSeedOtherPoints) {
 }
 
 TEST(LatinHypercube, ExchangesKeepPointsFarApart) {
-  // Without exchanges the mean smallest distance of 12 points in three dimensions is 0.21 over these seeds, with them 0.42.
+  // Without exchanges the mean smallest distance of 12 points in three dimensions is 0.21 over
+  // these seeds, with them 0.42.
   double mean = 0;
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) mean += smallest_distance(latin_hypercube(12, 3, seed)) / 20;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    mean += smallest_distance(latin_hypercube(12, 3, seed)) / 20;
   EXPECT_GT(mean, 0.38);
 }
 

@@ -21,15 +21,22 @@ constexpr double kReportInterval = 1;       // s
 constexpr double kElsewhereInterval = 0.5;  // s between looks at runs of other processes
 constexpr auto kNap = std::chrono::milliseconds(3);
 
-double seconds_between(std::chrono::steady_clock::time_point a, std::chrono::steady_clock::time_point b) {
+double seconds_between(std::chrono::steady_clock::time_point a,
+                       std::chrono::steady_clock::time_point b) {
   return std::chrono::duration<double>(b - a).count();
 }
 
 }  // namespace
 
-EngineForwardModel::Batch::Batch(const Study &study, const ForwardSettings &settings, RunStore &store, std::map<std::string, ForwardOutcome> &failed_here,
+EngineForwardModel::Batch::Batch(const Study &study, const ForwardSettings &settings,
+                                 RunStore &store,
+                                 std::map<std::string, ForwardOutcome> &failed_here,
                                  std::function<void(const BatchProgress &)> progress)
-    : study_(study), settings_(settings), store_(store), failed_here_(failed_here), progress_(std::move(progress)) {
+    : study_(study),
+      settings_(settings),
+      store_(store),
+      failed_here_(failed_here),
+      progress_(std::move(progress)) {
   begin_ = last_report_ = last_heartbeat_ = last_look_elsewhere_ = Clock::now();
 }
 
@@ -42,12 +49,14 @@ EngineForwardModel::Batch::~Batch() {
     try {
       store_.mark_lost(job.id, "bondlab was stopped");
     } catch (const UserError &) {
-      // The store itself fails: the run stays `running` in a dead process, which the next command sees.
+      // The store itself fails: the run stays `running` in a dead process, which the next command
+      // sees.
     }
   }
 }
 
-std::vector<ForwardOutcome> EngineForwardModel::Batch::run(const std::vector<ForwardRequest> &requests) {
+std::vector<ForwardOutcome> EngineForwardModel::Batch::run(
+    const std::vector<ForwardRequest> &requests) {
   const std::vector<std::size_t> job_of = make_jobs(requests);
   for (Job &job : jobs_)
     if (job.stage == Stage::pending) look_up(job);
@@ -83,7 +92,8 @@ std::vector<ForwardOutcome> EngineForwardModel::Batch::run(const std::vector<For
   return outcomes;
 }
 
-std::vector<std::size_t> EngineForwardModel::Batch::make_jobs(const std::vector<ForwardRequest> &requests) {
+std::vector<std::size_t> EngineForwardModel::Batch::make_jobs(
+    const std::vector<ForwardRequest> &requests) {
   std::vector<Job> planned;
   for (const ForwardRequest &request : requests) {
     Job job;
@@ -111,13 +121,18 @@ void EngineForwardModel::Batch::make_specimens(std::vector<Job> &jobs) {
     std::string error;
   };
   std::map<std::string, Wanted> wanted;
-  const auto name_of = [](const Job &job, double gap) { return job.plan.specimen.name + " " + std::to_string(job.plan.packing) + " " + canonical_number(gap); };
+  const auto name_of = [](const Job &job, double gap) {
+    return job.plan.specimen.name + " " + std::to_string(job.plan.packing) + " " +
+           canonical_number(gap);
+  };
   const auto gap_of = [](const Job &job) {
     const auto gap = job.plan.numeric.find("gap");
     return gap == job.plan.numeric.end() ? 0 : gap->second;
   };
   for (const Job &job : jobs)
-    if (job.plan.wants_specimen) wanted.emplace(name_of(job, gap_of(job)), Wanted{job.plan.specimen, job.plan.packing, gap_of(job), {}, ""});
+    if (job.plan.wants_specimen)
+      wanted.emplace(name_of(job, gap_of(job)),
+                     Wanted{job.plan.specimen, job.plan.packing, gap_of(job), {}, ""});
   std::vector<Wanted *> list;
   for (auto &[name, entry] : wanted) list.push_back(&entry);
 
@@ -133,7 +148,8 @@ void EngineForwardModel::Batch::make_specimens(std::vector<Job> &jobs) {
     }
   };
   std::vector<std::thread> threads;
-  for (int i = 1; i < std::min<int>(settings_.cores, static_cast<int>(list.size())); ++i) threads.emplace_back(work);
+  for (int i = 1; i < std::min<int>(settings_.cores, static_cast<int>(list.size())); ++i)
+    threads.emplace_back(work);
   work();
   for (std::thread &thread : threads) thread.join();
   if (const int signal = interrupt_signal()) throw Interrupted(signal);
@@ -145,7 +161,9 @@ void EngineForwardModel::Batch::make_specimens(std::vector<Job> &jobs) {
     if (found.error.empty()) continue;
     job.stage = Stage::settled;
     job.outcome.failure.cause = FailureCause::specimen;
-    job.outcome.failure.message = "the specimen '" + job.plan.specimen.name + "' (seed " + std::to_string(job.plan.seed()) + ") can't be tested: " + found.error;
+    job.outcome.failure.message = "the specimen '" + job.plan.specimen.name + "' (seed " +
+                                  std::to_string(job.plan.seed()) +
+                                  ") can't be tested: " + found.error;
     job.outcome.deck_variables = job.plan.numeric;
   }
 }
@@ -189,8 +207,11 @@ void EngineForwardModel::Batch::look_up(Job &job) {
         fill_common(job, run.directory);
         job.outcome.from_store = true;
         job.outcome.wall_seconds = run.wall_seconds;
-        job.outcome.failure = {run.cause, run.message + " (failed " + std::to_string(run.attempts) + " times, not tried again)", job.outcome.run_directory,
-                               job.outcome.replay_command, log_tail(job.outcome.run_directory)};
+        job.outcome.failure = {
+            run.cause,
+            run.message + " (failed " + std::to_string(run.attempts) + " times, not tried again)",
+            job.outcome.run_directory, job.outcome.replay_command,
+            log_tail(job.outcome.run_directory)};
         job.stage = Stage::settled;
       }
       return;
@@ -199,7 +220,8 @@ void EngineForwardModel::Batch::look_up(Job &job) {
       if (store_.owner_is_alive(run)) job.stage = Stage::elsewhere;
       return;
     case RunState::queued:
-    case RunState::lost: return;
+    case RunState::lost:
+      return;
   }
 }
 
@@ -214,8 +236,10 @@ bool EngineForwardModel::Batch::fits(const Job &job) const {
 }
 
 // What a dead process left: its engine may still be writing, and half a result is no result.
-void EngineForwardModel::Batch::forget_lost_run(const RunRecord &run, const std::string &new_directory) {
-  if ((run.state != RunState::running && run.state != RunState::lost) || run.directory.empty()) return;
+void EngineForwardModel::Batch::forget_lost_run(const RunRecord &run,
+                                                const std::string &new_directory) {
+  if ((run.state != RunState::running && run.state != RunState::lost) || run.directory.empty())
+    return;
   const fs::path folder = settings_.results / run.directory;
   kill_processes_of_run(folder);
   if (run.directory == new_directory) return;  // it had been removed, and its name was free again
@@ -242,7 +266,8 @@ void EngineForwardModel::Batch::start(Job &job) {
   write_manifest(folder, settings_.engine, job.plan, job.key, job.history);
   write_replay(folder, settings_.engine, job.plan, job.key, job.id);
   Launch launch = make_launch(settings_.engine, job.plan, job.key, job.id, folder);
-  launch.stall_limit = settings_.stall_limit > 0 ? settings_.stall_limit : std::max(60.0, job.plan.wall_limit / 2);
+  launch.stall_limit =
+      settings_.stall_limit > 0 ? settings_.stall_limit : std::max(60.0, job.plan.wall_limit / 2);
   try {
     job.process = std::make_unique<EngineProcess>(launch);
   } catch (const UserError &error) {
@@ -290,7 +315,8 @@ void EngineForwardModel::Batch::settle_failed(Job &job, const Failure &failure) 
 }
 
 bool EngineForwardModel::Batch::all_settled() const {
-  return std::all_of(jobs_.begin(), jobs_.end(), [](const Job &job) { return job.stage == Stage::settled; });
+  return std::all_of(jobs_.begin(), jobs_.end(),
+                     [](const Job &job) { return job.stage == Stage::settled; });
 }
 
 BatchProgress EngineForwardModel::Batch::count() const {
@@ -308,11 +334,13 @@ BatchProgress EngineForwardModel::Batch::count() const {
   return progress;
 }
 
-// Core-seconds still to be spent over the cores at work. Runs of a test nobody has timed yet take the batch's mean.
+// Core-seconds still to be spent over the cores at work. Runs of a test nobody has timed yet take
+// the batch's mean.
 double EngineForwardModel::Batch::seconds_left() const {
   double sum = 0, timed = 0;
   for (const Job &job : jobs_) {
-    const double seconds = job.stage == Stage::settled && job.outcome.ok ? job.outcome.wall_seconds : job.expected;
+    const double seconds =
+        job.stage == Stage::settled && job.outcome.ok ? job.outcome.wall_seconds : job.expected;
     if (seconds <= 0) continue;
     sum += seconds;
     ++timed;
@@ -340,7 +368,9 @@ void EngineForwardModel::Batch::report(bool force) {
   const BatchProgress progress = count();
   const int settled = progress.done + progress.failed;
   const Clock::time_point now = Clock::now();
-  if (!force && settled == reported_settled_ && progress.running == reported_running_ && seconds_between(last_report_, now) < kReportInterval) return;
+  if (!force && settled == reported_settled_ && progress.running == reported_running_ &&
+      seconds_between(last_report_, now) < kReportInterval)
+    return;
   last_report_ = now;
   reported_settled_ = settled;
   reported_running_ = progress.running;

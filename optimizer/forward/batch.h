@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Job: one batch of forward runs from start to end; the state that EngineForwardModel::run needs while it goes on.
-// Method: equal requests share a Job. A job waits for cores, runs, or watches another process compute its key; the loop
-//   looks at all of them every few milliseconds until each has an outcome. Leaving the batch by an exception kills what runs
-//   and marks it lost.
+// Job: one batch of forward runs from start to end; the state that EngineForwardModel::run needs
+// while it goes on. Method: equal requests share a Job. A job waits for cores, runs, or watches
+// another process compute its key; the loop
+//   looks at all of them every few milliseconds until each has an outcome. Leaving the batch by an
+//   exception kills what runs and marks it lost.
 // Units: seconds. Failure: as EngineForwardModel. Limits: internal to this room.
 #pragma once
 
@@ -20,7 +21,8 @@ namespace bondlab {
 
 class EngineForwardModel::Batch {
  public:
-  Batch(const Study &study, const ForwardSettings &settings, RunStore &store, std::map<std::string, ForwardOutcome> &failed_here,
+  Batch(const Study &study, const ForwardSettings &settings, RunStore &store,
+        std::map<std::string, ForwardOutcome> &failed_here,
         std::function<void(const BatchProgress &)> progress);
   ~Batch();
 
@@ -41,7 +43,8 @@ class EngineForwardModel::Batch {
     double expected = -1;  // s, from earlier runs
   };
 
-  std::vector<std::size_t> make_jobs(const std::vector<ForwardRequest> &requests);  // job of each request
+  std::vector<std::size_t> make_jobs(
+      const std::vector<ForwardRequest> &requests);  // job of each request
   void make_specimens(std::vector<Job> &jobs);
   void look_up(Job &job);
   bool fits(const Job &job) const;

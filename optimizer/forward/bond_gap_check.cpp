@@ -17,7 +17,8 @@ static std::vector<bool> has_neighbour(const std::vector<Particle> &particles, d
   std::vector<bool> found(particles.size(), false);
   const PairList pairs = find_pairs(particles, gap);
   for (std::size_t i = 0; i + 1 < pairs.start.size(); ++i)
-    for (std::size_t k = pairs.start[i]; k < pairs.start[i + 1]; ++k) found[i] = found[static_cast<std::size_t>(pairs.other[k])] = true;
+    for (std::size_t k = pairs.start[i]; k < pairs.start[i + 1]; ++k)
+      found[i] = found[static_cast<std::size_t>(pairs.other[k])] = true;
   return found;
 }
 
@@ -32,11 +33,14 @@ void check_bond_gap(const std::filesystem::path &specimen_file, double gap) {
   const std::vector<bool> bonded = has_neighbour(particles, gap);
   const auto alone = static_cast<std::size_t>(std::count(bonded.begin(), bonded.end(), false));
   if (static_cast<double>(alone) <= kFloaters * static_cast<double>(bonded.size())) return;
-  const std::size_t first = static_cast<std::size_t>(std::find(bonded.begin(), bonded.end(), false) - bonded.begin());
-  throw UserError({specimen_file.string(), packing.rows[first].line, 0},
-                  std::to_string(alone) + " of " + std::to_string(bonded.size()) + " particles, this one first, touch no other within the bond gap of " +
-                      format_quantity(gap, "mm") + " (deck variable 'gap'); usual for this packing: " + format_quantity(0.05 * mean_radius, "mm", 2) +
-                      ", a twentieth of the mean radius");
+  const std::size_t first =
+      static_cast<std::size_t>(std::find(bonded.begin(), bonded.end(), false) - bonded.begin());
+  throw UserError(
+      {specimen_file.string(), packing.rows[first].line, 0},
+      std::to_string(alone) + " of " + std::to_string(bonded.size()) +
+          " particles, this one first, touch no other within the bond gap of " +
+          format_quantity(gap, "mm") + " (deck variable 'gap'); usual for this packing: " +
+          format_quantity(0.05 * mean_radius, "mm", 2) + ", a twentieth of the mean radius");
 }
 
 }  // namespace bondlab

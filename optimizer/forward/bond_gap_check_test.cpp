@@ -10,7 +10,8 @@
 namespace bondlab {
 namespace {
 
-// 200 discs of 1 mm in pairs 10 mm apart, each pair with a gap of 0.02 mm; `alone` more without a partner.
+// 200 discs of 1 mm in pairs 10 mm apart, each pair with a gap of 0.02 mm; `alone` more without a
+// partner.
 std::filesystem::path packing(const TestFolder &folder, int alone) {
   Specimen specimen;
   specimen.request.shape = ContainerShape::rectangle;
@@ -45,7 +46,8 @@ TEST(CheckBondGap, AGapThatBondsNothingIsRefusedWithFileLineAndAnUsualGap) {
     EXPECT_EQ(error.place().file, (folder / "p.data").string());
     EXPECT_GT(error.place().line, 1);
     EXPECT_EQ(error.text(),
-              "200 of 200 particles, this one first, touch no other within the bond gap of 0.01 mm (deck variable 'gap'); usual for this packing: 0.05 mm, a "
+              "200 of 200 particles, this one first, touch no other within the bond gap of 0.01 mm "
+              "(deck variable 'gap'); usual for this packing: 0.05 mm, a "
               "twentieth of the mean radius");
   }
 }

@@ -14,14 +14,18 @@ namespace bondlab {
 
 namespace {
 
-// The first line names the format and its version: a later one may mean something else by the same columns.
+// The first line names the format and its version: a later one may mean something else by the same
+// columns.
 TableFile open_table(const std::filesystem::path &file, const std::string &format) {
   TableFile table(file, '\t');
   const auto &header = table.header();
   if (header.empty() || header.front().line != 1 || header.front().key != format)
-    throw UserError({file.string(), 1, 0}, "the first line must be '# " + format + "'" +
-                                               (header.empty() ? "" : ", it is '# " + header.front().key + "'"));
-  if (table.units().empty()) throw UserError(table.place(table.find("names")->line), "a '# units:' line is needed below the names");
+    throw UserError({file.string(), 1, 0},
+                    "the first line must be '# " + format + "'" +
+                        (header.empty() ? "" : ", it is '# " + header.front().key + "'"));
+  if (table.units().empty())
+    throw UserError(table.place(table.find("names")->line),
+                    "a '# units:' line is needed below the names");
   for (const std::string &unit : table.units()) {
     Unit parsed;
     try {
@@ -30,14 +34,17 @@ TableFile open_table(const std::filesystem::path &file, const std::string &forma
       throw UserError(table.place(table.find("units")->line), error.text());
     }
     if (parsed.multiply != parsed.divide || parsed.offset != 0)
-      throw UserError(table.place(table.find("units")->line), "the engine's files are in SI, the unit '" + unit + "' isn't");
+      throw UserError(table.place(table.find("units")->line),
+                      "the engine's files are in SI, the unit '" + unit + "' isn't");
   }
   return table;
 }
 
 }  // namespace
 
-bool Curve::has(const std::string &name) const { return std::find(names.begin(), names.end(), name) != names.end(); }
+bool Curve::has(const std::string &name) const {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 const std::vector<double> &Curve::column(const std::string &name) const {
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -53,10 +60,13 @@ Curve read_curve(const std::filesystem::path &file) {
   curve.columns.assign(curve.names.size(), {});
   for (auto &column : curve.columns) column.reserve(table.rows().size());
   for (const TableFile::Row &row : table.rows())
-    for (std::size_t i = 0; i < curve.names.size(); ++i) curve.columns[i].push_back(table.number(row, i));
+    for (std::size_t i = 0; i < curve.names.size(); ++i)
+      curve.columns[i].push_back(table.number(row, i));
   if (const TableFile::HeaderLine *complete = table.find("complete")) {
-    if (!table.header_line_is_last(*complete)) throw UserError(table.place(complete->line), "'# complete:' must be the last line");
-    if (complete->value.empty()) throw UserError(table.place(complete->line), "'# complete:' doesn't say why the run ended");
+    if (!table.header_line_is_last(*complete))
+      throw UserError(table.place(complete->line), "'# complete:' must be the last line");
+    if (complete->value.empty())
+      throw UserError(table.place(complete->line), "'# complete:' doesn't say why the run ended");
     curve.complete = true;
     curve.completion = complete->value;
   }
@@ -66,7 +76,8 @@ Curve read_curve(const std::filesystem::path &file) {
 std::vector<BrokenBond> read_broken_bonds(const std::filesystem::path &file) {
   const TableFile table = open_table(file, "bondlab-broken-bonds 1");
   enum { step, time, id1, id2, type, x, y, z, mode, sigma, tau, sigma_c, tau_c, count };
-  const char *const names[count] = {"step", "time", "id1", "id2", "type", "x", "y", "z", "mode", "sigma", "tau", "sigma_c", "tau_c"};
+  const char *const names[count] = {"step", "time", "id1",   "id2", "type",    "x",    "y",
+                                    "z",    "mode", "sigma", "tau", "sigma_c", "tau_c"};
   std::size_t at[count];
   for (int i = 0; i < count; ++i) at[i] = table.column_index(names[i]);
   std::vector<BrokenBond> bonds;
@@ -83,7 +94,8 @@ std::vector<BrokenBond> read_broken_bonds(const std::filesystem::path &file) {
     bond.z = table.number(row, at[z]);
     bond.mode = table.word(row, at[mode]);
     if (bond.mode != "tension" && bond.mode != "shear")
-      throw UserError(table.place(row, at[mode]), "'" + bond.mode + "' isn't a mode of breaking; allowed: tension, shear");
+      throw UserError(table.place(row, at[mode]),
+                      "'" + bond.mode + "' isn't a mode of breaking; allowed: tension, shear");
     bond.sigma = table.number(row, at[sigma]);
     bond.tau = table.number(row, at[tau]);
     bond.sigma_c = table.number(row, at[sigma_c]);
@@ -102,7 +114,9 @@ std::vector<EndParticle> read_particles(const std::filesystem::path &file) {
     ++number;
     return static_cast<bool>(std::getline(lines, line));
   };
-  const auto fail = [&](const std::string &text) { throw UserError({file.string(), number, 0}, text); };
+  const auto fail = [&](const std::string &text) {
+    throw UserError({file.string(), number, 0}, text);
+  };
   bool found = false;
   while (next()) {
     if (line.rfind("ITEM: NUMBER OF ATOMS", 0) != 0) continue;
@@ -110,7 +124,8 @@ std::vector<EndParticle> read_particles(const std::filesystem::path &file) {
     const long count = std::strtol(line.c_str(), nullptr, 10);
     if (count <= 0) fail("'" + line + "' isn't a number of particles");
     while (next() && line.rfind("ITEM: ATOMS", 0) != 0)
-      if (line.rfind("ITEM:", 0) == 0 && line.rfind("ITEM: BOX BOUNDS", 0) != 0) fail("'" + line + "' where 'ITEM: ATOMS' is expected");
+      if (line.rfind("ITEM:", 0) == 0 && line.rfind("ITEM: BOX BOUNDS", 0) != 0)
+        fail("'" + line + "' where 'ITEM: ATOMS' is expected");
     std::istringstream words(line.substr(std::min<std::size_t>(line.size(), 11)));
     std::vector<std::string> names;
     for (std::string word; words >> word;) names.push_back(word);
@@ -119,12 +134,15 @@ std::vector<EndParticle> read_particles(const std::filesystem::path &file) {
       if (at == names.end()) fail("the dump has no column '" + name + "'; columns: " + join(names));
       return static_cast<std::size_t>(at - names.begin());
     };
-    const std::size_t id = index_of("id"), type = index_of("type"), radius = index_of("radius"), x = index_of("x"), y = index_of("y"), z = index_of("z");
+    const std::size_t id = index_of("id"), type = index_of("type"), radius = index_of("radius"),
+                      x = index_of("x"), y = index_of("y"), z = index_of("z");
     found = true;
     particles.clear();  // only the last frame counts
     particles.reserve(static_cast<std::size_t>(count));
     for (long i = 0; i < count; ++i) {
-      if (!next()) fail("the dump ends after " + std::to_string(i) + " of " + std::to_string(count) + " particles");
+      if (!next())
+        fail("the dump ends after " + std::to_string(i) + " of " + std::to_string(count) +
+             " particles");
       std::vector<double> values;
       const char *at = line.data(), *const end = line.data() + line.size();
       for (;;) {
@@ -132,16 +150,24 @@ std::vector<EndParticle> read_particles(const std::filesystem::path &file) {
         if (at == end) break;
         double value = 0;
         const auto result = std::from_chars(at, end, value);
-        if (result.ec != std::errc() || !std::isfinite(value)) fail("column " + std::to_string(values.size() + 1) + " isn't a finite number: '" + line + "'");
+        if (result.ec != std::errc() || !std::isfinite(value))
+          fail("column " + std::to_string(values.size() + 1) + " isn't a finite number: '" + line +
+               "'");
         values.push_back(value);
         at = result.ptr;
       }
-      if (values.size() != names.size()) fail(std::to_string(values.size()) + " numbers in a row of " + std::to_string(names.size()) + " columns");
-      particles.push_back({static_cast<int>(values[id]), static_cast<int>(values[type]), values[radius], values[x], values[y], values[z]});
+      if (values.size() != names.size())
+        fail(std::to_string(values.size()) + " numbers in a row of " +
+             std::to_string(names.size()) + " columns");
+      particles.push_back({static_cast<int>(values[id]), static_cast<int>(values[type]),
+                           values[radius], values[x], values[y], values[z]});
     }
   }
-  if (!found) throw UserError({file.string(), 0, 0}, "this isn't a dump: there is no 'ITEM: NUMBER OF ATOMS' line");
-  std::sort(particles.begin(), particles.end(), [](const EndParticle &a, const EndParticle &b) { return a.id < b.id; });
+  if (!found)
+    throw UserError({file.string(), 0, 0},
+                    "this isn't a dump: there is no 'ITEM: NUMBER OF ATOMS' line");
+  std::sort(particles.begin(), particles.end(),
+            [](const EndParticle &a, const EndParticle &b) { return a.id < b.id; });
   return particles;
 }
 

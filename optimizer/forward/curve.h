@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Job: the files a virtual test writes, as data: the curve, the log of broken bonds, the particles at the end.
-// Method: strict readers: header lines `# bondlab-curve 1`, `# names:`, `# units:`, every row with as many finite numbers
-//   as there are names, `# complete: WHY` as the last line (its absence means a truncated file, which is data, not an error).
-// Units: SI, as the file's units line says; other units are refused. Failure: UserError with file:line:column.
+// Job: the files a virtual test writes, as data: the curve, the log of broken bonds, the particles
+// at the end. Method: strict readers: header lines `# bondlab-curve 1`, `# names:`, `# units:`,
+// every row with as many finite numbers
+//   as there are names, `# complete: WHY` as the last line (its absence means a truncated file,
+//   which is data, not an error).
+// Units: SI, as the file's units line says; other units are refused. Failure: UserError with
+// file:line:column.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +25,8 @@ struct Curve {
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
   bool has(const std::string &name) const;
-  const std::vector<double> &column(const std::string &name) const;  // UserError that lists the columns when absent
+  const std::vector<double> &column(
+      const std::string &name) const;  // UserError that lists the columns when absent
 };
 
 struct BrokenBond {
@@ -41,6 +45,7 @@ struct EndParticle {
 
 Curve read_curve(const std::filesystem::path &file);
 std::vector<BrokenBond> read_broken_bonds(const std::filesystem::path &file);
-std::vector<EndParticle> read_particles(const std::filesystem::path &file);  // last frame of a dump, sorted by id
+std::vector<EndParticle> read_particles(
+    const std::filesystem::path &file);  // last frame of a dump, sorted by id
 
 }  // namespace bondlab

@@ -24,7 +24,9 @@ static bool is_program(const fs::path &path) {
 
 static fs::path find_mpirun() {
   if (const char *environment = std::getenv("BONDLAB_MPIRUN")) {
-    if (!is_program(environment)) throw UserError(std::string("BONDLAB_MPIRUN names '") + environment + "', which isn't a program");
+    if (!is_program(environment))
+      throw UserError(std::string("BONDLAB_MPIRUN names '") + environment +
+                      "', which isn't a program");
     return fs::absolute(environment);
   }
 #ifdef BONDLAB_MPIRUN
@@ -34,18 +36,21 @@ static fs::path find_mpirun() {
   std::istringstream folders(path ? path : "");
   for (std::string folder; std::getline(folders, folder, ':');)
     if (is_program(fs::path(folder) / "mpirun")) return fs::absolute(fs::path(folder) / "mpirun");
-  throw UserError("mpirun isn't in PATH; install Open MPI (openmpi-bin) or set BONDLAB_MPIRUN to it");
+  throw UserError(
+      "mpirun isn't in PATH; install Open MPI (openmpi-bin) or set BONDLAB_MPIRUN to it");
 }
 
 Engine find_engine() {
   Engine engine;
   if (const char *environment = std::getenv("BONDLAB_LMP")) {
     engine.program = environment;
-    if (!is_program(engine.program)) throw UserError("BONDLAB_LMP names '" + engine.program.string() + "', which isn't a program");
+    if (!is_program(engine.program))
+      throw UserError("BONDLAB_LMP names '" + engine.program.string() + "', which isn't a program");
   } else {
     engine.program = program_folder() / "lmp_bondlab";
     if (!is_program(engine.program))
-      throw UserError("the engine isn't beside bondlab ('" + engine.program.string() + "'); build it with tools/setup and cmake, or set BONDLAB_LMP to it");
+      throw UserError("the engine isn't beside bondlab ('" + engine.program.string() +
+                      "'); build it with tools/setup and cmake, or set BONDLAB_LMP to it");
   }
   engine.program = fs::absolute(engine.program);
   engine.mpirun = find_mpirun();

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // Job: find the engine lmp_bondlab and mpirun, and say which engine it is.
-// Method: lmp_bondlab stands beside our own program, or where BONDLAB_LMP points; mpirun where BONDLAB_MPIRUN points, where
-//   the build found it, or in PATH. The engine's identity is the hash of its file: another build is another engine, and its
-//   results are never mixed.
+// Method: lmp_bondlab stands beside our own program, or where BONDLAB_LMP points; mpirun where
+// BONDLAB_MPIRUN points, where
+//   the build found it, or in PATH. The engine's identity is the hash of its file: another build is
+//   another engine, and its results are never mixed.
 // Units: none. Failure: UserError that says where was looked.
 #pragma once
 

@@ -78,7 +78,8 @@ TEST(EngineForwardModel, AFailedRunIsTriedAgainByTheNextCommandUpToThreeTimes) {
   EXPECT_EQ(fake.total("start"), 3);
   EXPECT_EQ(fourth[0].failure.cause, FailureCause::engine_crash);
   EXPECT_NE(fourth[0].failure.message.find("(failed 3 times, not tried again)"), std::string::npos);
-  EXPECT_NE(second[0].failure.run_directory, third[0].failure.run_directory) << "every attempt has a folder of its own";
+  EXPECT_NE(second[0].failure.run_directory, third[0].failure.run_directory)
+      << "every attempt has a folder of its own";
   EXPECT_TRUE(fs::exists(second[0].failure.run_directory));
 }
 
@@ -86,8 +87,10 @@ TEST(EngineForwardModel, SuccessKeepsOnlyTheResults) {
   FakeEngine fake;
   const fs::path folder = fake.run({0})[0].run_directory;
   std::set<std::string> names;
-  for (const auto &entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
-  EXPECT_EQ(names, (std::set<std::string>{"curve.tsv", "kept.txt", "log.bondlab", "manifest.json", "replay.sh"}));
+  for (const auto &entry : fs::directory_iterator(folder))
+    names.insert(entry.path().filename().string());
+  EXPECT_EQ(names, (std::set<std::string>{"curve.tsv", "kept.txt", "log.bondlab", "manifest.json",
+                                          "replay.sh"}));
 }
 
 TEST(EngineForwardModel, TheRunKnowsItsIdKeyAndSeedAndHasNoInput) {
@@ -105,7 +108,8 @@ TEST(EngineForwardModel, TheReplayCommandGivesTheSameCurve) {
   FakeEngine fake;
   const auto outcome = fake.run({33})[0];
   ASSERT_EQ(std::system((outcome.replay_command + " >/dev/null 2>&1").c_str()), 0);
-  EXPECT_EQ(read_text_file(fs::path(outcome.run_directory) / "replay" / "curve.tsv"), read_text_file(fs::path(outcome.run_directory) / "curve.tsv"));
+  EXPECT_EQ(read_text_file(fs::path(outcome.run_directory) / "replay" / "curve.tsv"),
+            read_text_file(fs::path(outcome.run_directory) / "curve.tsv"));
 }
 
 TEST(EngineForwardModel, DeckVariablesOfTheRunAreInSi) {
@@ -126,7 +130,8 @@ TEST(EngineForwardModel, RunsAsManyAtATimeAsTheCoresTakeAndNoMore) {
     int most = 0;
     std::vector<ForwardRequest> requests;
     for (int i = 0; i < 6; ++i) requests.push_back({"fake", {{"act", 12}, {"value", i}}, 0});
-    model.run(requests, [&](const BatchProgress &progress) { most = std::max(most, progress.running); });
+    model.run(requests,
+              [&](const BatchProgress &progress) { most = std::max(most, progress.running); });
     EXPECT_EQ(most, cores);
     EXPECT_EQ(fake.total("end"), 6);
   }
@@ -137,8 +142,10 @@ TEST(EngineForwardModel, RanksCountAgainstTheCores) {
   EngineForwardModel model(fake.study, fake.settings);
   int most = 0;
   std::vector<ForwardRequest> requests;
-  for (int i = 0; i < 4; ++i) requests.push_back({"pair", {{"act", 12}, {"value", i}}, 0});  // 2 ranks each
-  model.run(requests, [&](const BatchProgress &progress) { most = std::max(most, progress.running); });
+  for (int i = 0; i < 4; ++i)
+    requests.push_back({"pair", {{"act", 12}, {"value", i}}, 0});  // 2 ranks each
+  model.run(requests,
+            [&](const BatchProgress &progress) { most = std::max(most, progress.running); });
   EXPECT_EQ(most, 2);
 }
 
@@ -148,7 +155,8 @@ TEST(EngineForwardModel, ProgressCountsUpToTheTotalAndTimeLeftDown) {
   EngineForwardModel model(fake.study, fake.settings);
   std::vector<BatchProgress> reports;
   const auto note = [&](const BatchProgress &progress) { reports.push_back(progress); };
-  model.run({{"fake", {{"act", 12}}, 0}, fake.request(6), fake.request(30), fake.request(31)}, note);
+  model.run({{"fake", {{"act", 12}}, 0}, fake.request(6), fake.request(30), fake.request(31)},
+            note);
   ASSERT_GE(reports.size(), 2u);
   EXPECT_EQ(reports.front().total, 4);
   EXPECT_EQ(reports.back().done, 3);
@@ -169,7 +177,10 @@ TEST(EngineForwardModel, RanksTimesJobsBeyondTheCoresIsAnError) {
     EngineForwardModel model(fake.study, fake.settings);
     FAIL();
   } catch (const UserError &error) {
-    EXPECT_NE(std::string(error.what()).find("study.toml:23:1: ranks x jobs = 2 x 3 = 6 for the test 'pair'; this machine lets us use 4 cores; allowed: jobs up to 2"), std::string::npos)
+    EXPECT_NE(std::string(error.what())
+                  .find("study.toml:23:1: ranks x jobs = 2 x 3 = 6 for the test 'pair'; this "
+                        "machine lets us use 4 cores; allowed: jobs up to 2"),
+              std::string::npos)
         << error.what();
   }
   fake.settings.jobs = 0;
@@ -178,7 +189,10 @@ TEST(EngineForwardModel, RanksTimesJobsBeyondTheCoresIsAnError) {
     EngineForwardModel model(fake.study, fake.settings);
     FAIL();
   } catch (const UserError &error) {
-    EXPECT_NE(std::string(error.what()).find("the test 'pair' wants 2 ranks; this machine lets us use 1 core"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what())
+                  .find("the test 'pair' wants 2 ranks; this machine lets us use 1 core"),
+              std::string::npos)
+        << error.what();
   }
 }
 
@@ -191,7 +205,8 @@ TEST(EngineForwardModel, AVariableTheTestDoesNotHaveIsAnError) {
   EXPECT_EQ(fake.total("start"), 0);
 }
 
-// ---- what is left when a driver dies ------------------------------------------------------------------------------
+// ---- what is left when a driver dies
+// ------------------------------------------------------------------------------
 
 // A driver in a process of its own; returns its id.
 pid_t start_driver(FakeEngine &fake, int runs) {
@@ -226,7 +241,8 @@ int processes_below(const fs::path &results) {
   std::error_code error;
   for (const auto &entry : fs::directory_iterator("/proc", error)) {
     std::ifstream stream(entry.path() / "environ", std::ios::binary);
-    const std::string environment((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+    const std::string environment((std::istreambuf_iterator<char>(stream)),
+                                  std::istreambuf_iterator<char>());
     count += environment.find("BONDLAB_RUN_DIR=" + results.string()) != std::string::npos;
   }
   return count;
@@ -250,17 +266,22 @@ TEST(KillNine, TheSameCommandGoesOnAndRepeatsNoFinishedRun) {
     }
     RunStore store(fake.settings.results / "store.sqlite");
     EXPECT_EQ(store.counts().done, runs);
-    EXPECT_EQ(store.counts().running + store.counts().lost + store.counts().queued + store.counts().failed, 0);
+    EXPECT_EQ(store.counts().running + store.counts().lost + store.counts().queued +
+                  store.counts().failed,
+              0);
     for (const auto &[key, ends] : fake.ledger("end")) {
-      // A run may have ended in the instant before its driver was killed, unseen: then it is done again. Never a seen one.
+      // A run may have ended in the instant before its driver was killed, unseen: then it is done
+      // again. Never a seen one.
       EXPECT_LE(ends, 2) << key;
     }
-    // What the store had as done before a kill was not started again: at most `cores` runs are cut off by a kill.
+    // What the store had as done before a kill was not started again: at most `cores` runs are cut
+    // off by a kill.
     EXPECT_LE(fake.total("start"), runs + 3 * fake.settings.cores);
     std::this_thread::sleep_for(50ms);
     EXPECT_EQ(processes_below(fake.settings.results), 0) << "no engine outlives its driver";
     int folders = 0;
-    for (const auto &entry : fs::directory_iterator(fake.settings.results / "runs")) folders += entry.is_directory();
+    for (const auto &entry : fs::directory_iterator(fake.settings.results / "runs"))
+      folders += entry.is_directory();
     EXPECT_EQ(folders, runs) << "the folders of lost runs are gone";
   }
 }
@@ -284,7 +305,8 @@ TEST(KillNine, FinishedRunsKeepTheirResultThroughKillsAndRestarts) {
   wait_for(driver);
   ASSERT_GE(done.size(), 3u);
   EXPECT_EQ(wait_for(start_driver(fake, 8)), 0);
-  for (const std::string &key : done) EXPECT_EQ(fake.ledger("start")[key], 1) << "a run that the store had as done was repeated";
+  for (const std::string &key : done)
+    EXPECT_EQ(fake.ledger("start")[key], 1) << "a run that the store had as done was repeated";
 }
 
 TEST(Interrupt, KillsTheEnginesMarksTheRunsLostAndGoesOnLater) {
@@ -330,7 +352,8 @@ TEST(TwoProcesses, TheOtherTakesOverWhatAKilledOneHadBegun) {
 }
 
 TEST(Overhead, OfTheDriverIsAtMostTwentyMillisecondsARun) {
-  // 60 runs of the fake engine against the same scripts started by hand; the goal of 20 ms holds on an idle machine.
+  // 60 runs of the fake engine against the same scripts started by hand; the goal of 20 ms holds on
+  // an idle machine.
   FakeEngine fake;
   fake.settings.cores = 1;
   fake.study.tests[1].ranks = 1;
@@ -339,7 +362,8 @@ TEST(Overhead, OfTheDriverIsAtMostTwentyMillisecondsARun) {
   EngineForwardModel model(fake.study, fake.settings);
   const auto begin = std::chrono::steady_clock::now();
   const auto outcomes = model.run(requests, nullptr);
-  const double total = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const double total =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   double engine = 0;
   for (const auto &outcome : outcomes) engine += outcome.wall_seconds;
   RecordProperty("milliseconds_a_run", std::to_string(1000 * (total - engine) / 60));

@@ -68,40 +68,55 @@ std::optional<std::string> engine_error(const std::string &text) {
     const std::size_t colon = line.find(": ");
     std::string words = colon == std::string::npos ? line : line.substr(colon + 2);
     const std::size_t source = words.rfind(" (");
-    if (source != std::string::npos && words.find(".cpp:", source) != std::string::npos) words.erase(source);
-    while (!words.empty() && std::isspace(static_cast<unsigned char>(words.back()))) words.pop_back();
+    if (source != std::string::npos && words.find(".cpp:", source) != std::string::npos)
+      words.erase(source);
+    while (!words.empty() && std::isspace(static_cast<unsigned char>(words.back())))
+      words.pop_back();
     return words;
   }
   return std::nullopt;
 }
 
-bool contains(const std::string &text, const char *part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string &text, const char *part) {
+  return text.find(part) != std::string::npos;
+}
 
 bool says_not_a_number(const std::string &words) {
   std::string lower;
-  for (const char c : words) lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const char c : words)
+    lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (contains(lower, "non-numeric") || contains(lower, "not a number")) return true;
-  for (std::size_t at = lower.find("nan"); at != std::string::npos; at = lower.find("nan", at + 1)) {
+  for (std::size_t at = lower.find("nan"); at != std::string::npos;
+       at = lower.find("nan", at + 1)) {
     const bool begins = at == 0 || !std::isalpha(static_cast<unsigned char>(lower[at - 1]));
-    const bool ends = at + 3 == lower.size() || !std::isalpha(static_cast<unsigned char>(lower[at + 3]));
+    const bool ends =
+        at + 3 == lower.size() || !std::isalpha(static_cast<unsigned char>(lower[at + 3]));
     if (begins && ends) return true;
   }
   return false;
 }
 
 FailureCause cause_of(const std::string &words) {
-  if (contains(words, "Lost atoms") || contains(words, "Atom count is inconsistent") || contains(words, "Out of range atoms")) return FailureCause::lost_atoms;
-  if (contains(words, "Bond atom") && contains(words, "missing")) return FailureCause::bond_atoms_missing;
+  if (contains(words, "Lost atoms") || contains(words, "Atom count is inconsistent") ||
+      contains(words, "Out of range atoms"))
+    return FailureCause::lost_atoms;
+  if (contains(words, "Bond atom") && contains(words, "missing"))
+    return FailureCause::bond_atoms_missing;
   if (says_not_a_number(words)) return FailureCause::not_a_number;
   return FailureCause::deck_error;
 }
 
 std::string advice_for(FailureCause cause) {
   switch (cause) {
-    case FailureCause::lost_atoms: return "; particles flew away: try a smaller `safety` (time step) or stiffer bounds";
-    case FailureCause::bond_atoms_missing: return "; a bond is longer than the ghost shell: the specimen came apart or the time step is too large";
-    case FailureCause::not_a_number: return "; the integration diverged: try a smaller `safety` (time step)";
-    default: return "";
+    case FailureCause::lost_atoms:
+      return "; particles flew away: try a smaller `safety` (time step) or stiffer bounds";
+    case FailureCause::bond_atoms_missing:
+      return "; a bond is longer than the ghost shell: the specimen came apart or the time step is "
+             "too large";
+    case FailureCause::not_a_number:
+      return "; the integration diverged: try a smaller `safety` (time step)";
+    default:
+      return "";
   }
 }
 
@@ -110,9 +125,12 @@ std::string with_deck_place(const RunPlan &plan, const std::string &log, const s
   return to_string(Place{plan.deck.string(), line, 0}) + ": " + words;
 }
 
-std::string signal_words(int signal) { return "signal " + std::to_string(signal) + " (" + strsignal(signal) + ")"; }
+std::string signal_words(int signal) {
+  return "signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
+}
 
-// The signal that ended a rank, as mpirun reports it: in its text, or as 128 + signal in its status.
+// The signal that ended a rank, as mpirun reports it: in its text, or as 128 + signal in its
+// status.
 int rank_signal(const RunEnd &end, const std::string &screen) {
   const std::string words = "exited on signal ";
   const std::size_t at = screen.find(words);
@@ -122,7 +140,9 @@ int rank_signal(const RunEnd &end, const std::string &screen) {
 }
 
 bool launcher_failed(const std::string &screen) {
-  return contains(screen, "mpirun was unable to") || contains(screen, "There are not enough slots available") || contains(screen, "An ORTE daemon has unexpectedly failed") ||
+  return contains(screen, "mpirun was unable to") ||
+         contains(screen, "There are not enough slots available") ||
+         contains(screen, "An ORTE daemon has unexpectedly failed") ||
          contains(screen, "mpirun has detected an attempt to run as root");
 }
 
@@ -131,7 +151,8 @@ std::string launcher_words(const std::string &screen) {
   std::istringstream lines(screen);
   std::string words;
   for (std::string line; std::getline(lines, line);)
-    if (!line.empty() && line[0] != '-' && words.size() < 200) words += (words.empty() ? "" : " ") + line;
+    if (!line.empty() && line[0] != '-' && words.size() < 200)
+      words += (words.empty() ? "" : " ") + line;
   return words;
 }
 
@@ -154,7 +175,8 @@ int last_deck_line(const std::string &deck, const std::string &log) {
     if (command.empty()) continue;
     const auto same = [&](const DeckCommand &other) { return other.command == command; };
     auto found = std::find_if(commands.begin() + static_cast<long>(at), commands.end(), same);
-    if (found == commands.end()) found = std::find_if(commands.begin(), commands.end(), same);  // a jump back
+    if (found == commands.end())
+      found = std::find_if(commands.begin(), commands.end(), same);  // a jump back
     if (found == commands.end()) continue;
     line = found->line;
     at = static_cast<std::size_t>(found - commands.begin()) + 1;
@@ -168,7 +190,8 @@ std::string log_tail(const fs::path &directory, int lines) {
     while (!text.empty() && text.back() == '\n') text.pop_back();
     if (text.empty()) continue;
     std::size_t begin = text.size();
-    for (int i = 0; i < lines && begin != std::string::npos && begin > 0; ++i) begin = text.rfind('\n', begin - 1);
+    for (int i = 0; i < lines && begin != std::string::npos && begin > 0; ++i)
+      begin = text.rfind('\n', begin - 1);
     return begin == std::string::npos || begin == 0 ? text : text.substr(begin + 1);
   }
   return "";
@@ -177,46 +200,66 @@ std::string log_tail(const fs::path &directory, int lines) {
 Verdict judge_output(const RunPlan &plan, const fs::path &directory) {
   const fs::path file = directory / plan.curve;
   std::error_code error;
-  if (!fs::is_regular_file(file, error)) return failed(FailureCause::missing_output, "the run wrote no '" + plan.curve + "'");
+  if (!fs::is_regular_file(file, error))
+    return failed(FailureCause::missing_output, "the run wrote no '" + plan.curve + "'");
   Verdict verdict;
   try {
     verdict.curve = read_curve(file);
     for (const std::string &column : plan.columns) verdict.curve.column(column);
   } catch (const NotFinite &not_finite) {
-    return failed(FailureCause::not_a_number, not_finite.what() + advice_for(FailureCause::not_a_number));
+    return failed(FailureCause::not_a_number,
+                  not_finite.what() + advice_for(FailureCause::not_a_number));
   } catch (const UserError &user_error) {
-    return failed(FailureCause::bad_output, user_error.place().file.empty() ? file.string() + ": " + user_error.text() : user_error.what());
+    return failed(FailureCause::bad_output, user_error.place().file.empty()
+                                                ? file.string() + ": " + user_error.text()
+                                                : user_error.what());
   }
   if (!verdict.curve.complete)
-    return failed(FailureCause::truncated_output, "'" + file.string() + "' ends after " + std::to_string(verdict.curve.rows()) + " rows without '# complete:'");
-  if (verdict.curve.rows() == 0) return failed(FailureCause::bad_output, "'" + file.string() + "' has no rows");
+    return failed(FailureCause::truncated_output, "'" + file.string() + "' ends after " +
+                                                      std::to_string(verdict.curve.rows()) +
+                                                      " rows without '# complete:'");
+  if (verdict.curve.rows() == 0)
+    return failed(FailureCause::bad_output, "'" + file.string() + "' has no rows");
   verdict.ok = true;
   return verdict;
 }
 
 Verdict judge_run(const RunEnd &end, const RunPlan &plan, const fs::path &directory) {
-  const std::string log = text_or_nothing(directory / kLogName), screen = text_or_nothing(directory / kScreenName);
-  const std::string hung = end.reason == EndReason::by_itself ? "" : " (then it hung and was ended)";
+  const std::string log = text_or_nothing(directory / kLogName),
+                    screen = text_or_nothing(directory / kScreenName);
+  const std::string hung =
+      end.reason == EndReason::by_itself ? "" : " (then it hung and was ended)";
 
   std::optional<std::string> words = engine_error(log);
   if (!words) words = engine_error(screen);
   if (words) {
     const FailureCause cause = cause_of(*words);
-    const std::string said = cause == FailureCause::deck_error ? with_deck_place(plan, log, *words) : "the engine stopped: " + *words;
+    const std::string said = cause == FailureCause::deck_error ? with_deck_place(plan, log, *words)
+                                                               : "the engine stopped: " + *words;
     return failed(cause, said + hung + advice_for(cause));
   }
   if (end.reason == EndReason::wall_limit)
-    return failed(FailureCause::timeout, "ended at the wall limit of " + canonical_number(plan.wall_limit) + " s; give the test '" + plan.test + "' a longer wall_limit, or look at the log for what slows it down");
+    return failed(FailureCause::timeout,
+                  "ended at the wall limit of " + canonical_number(plan.wall_limit) +
+                      " s; give the test '" + plan.test +
+                      "' a longer wall_limit, or look at the log for what slows it down");
   if (end.reason == EndReason::stalled)
-    return failed(FailureCause::no_progress, "ended after " + format_quantity(end.wall_seconds, "s", 3) + ": neither log nor curve had grown for a long time");
+    return failed(FailureCause::no_progress,
+                  "ended after " + format_quantity(end.wall_seconds, "s", 3) +
+                      ": neither log nor curve had grown for a long time");
   if (end.status == 0) return judge_output(plan, directory);
 
-  if (launcher_failed(screen)) return failed(FailureCause::launcher, "mpirun couldn't start the engine: " + launcher_words(screen));
+  if (launcher_failed(screen))
+    return failed(FailureCause::launcher,
+                  "mpirun couldn't start the engine: " + launcher_words(screen));
   // A curve with NaN explains a crash better than the signal does.
   const Verdict output = judge_output(plan, directory);
   if (output.cause == FailureCause::not_a_number) return output;
-  if (const int signal = rank_signal(end, screen)) return failed(FailureCause::engine_crash, "the engine was ended by " + signal_words(signal));
-  return failed(FailureCause::engine_crash, "the engine ended with status " + std::to_string(end.status) + " without an error message");
+  if (const int signal = rank_signal(end, screen))
+    return failed(FailureCause::engine_crash, "the engine was ended by " + signal_words(signal));
+  return failed(
+      FailureCause::engine_crash,
+      "the engine ended with status " + std::to_string(end.status) + " without an error message");
 }
 
 }  // namespace bondlab

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Job: say whether a run that has ended is a result, and if not, name the cause in words its user can act on.
-// Method: the engine's own words come first (an error message names the cause even when the run hung after it), then how the
-//   process ended, then the curve: present, readable, free of NaN, with its completion line and the columns wanted. A deck
-//   error is located by following the commands the log echoes through the deck.
-// Why not the exit status alone: a rank that stops may leave the others waiting for ever, and a run can end with status 0
+// Job: say whether a run that has ended is a result, and if not, name the cause in words its user
+// can act on. Method: the engine's own words come first (an error message names the cause even when
+// the run hung after it), then how the
+//   process ended, then the curve: present, readable, free of NaN, with its completion line and the
+//   columns wanted. A deck error is located by following the commands the log echoes through the
+//   deck.
+// Why not the exit status alone: a rank that stops may leave the others waiting for ever, and a run
+// can end with status 0
 //   without having written what was asked for.
 // Units: none. Failure: none of its own: whatever can't be read is a cause too.
 #pragma once
@@ -38,7 +41,8 @@ Verdict judge_output(const RunPlan &plan, const std::filesystem::path &directory
 // Line of the deck whose command the log echoed last; 0 when it can't be told.
 int last_deck_line(const std::string &deck, const std::string &log);
 
-// The last lines of the log, or of the screen output where there is no log; "" when there is neither.
+// The last lines of the log, or of the screen output where there is no log; "" when there is
+// neither.
 std::string log_tail(const std::filesystem::path &directory, int lines = 8);
 
 }  // namespace bondlab

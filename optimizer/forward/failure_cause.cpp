@@ -8,19 +8,20 @@
 
 namespace bondlab {
 
-static constexpr std::pair<FailureCause, const char *> kNames[] = {{FailureCause::none, "none"},
-                                                                   {FailureCause::deck_error, "deck_error"},
-                                                                   {FailureCause::engine_crash, "engine_crash"},
-                                                                   {FailureCause::lost_atoms, "lost_atoms"},
-                                                                   {FailureCause::bond_atoms_missing, "bond_atoms_missing"},
-                                                                   {FailureCause::not_a_number, "not_a_number"},
-                                                                   {FailureCause::timeout, "timeout"},
-                                                                   {FailureCause::no_progress, "no_progress"},
-                                                                   {FailureCause::truncated_output, "truncated_output"},
-                                                                   {FailureCause::missing_output, "missing_output"},
-                                                                   {FailureCause::bad_output, "bad_output"},
-                                                                   {FailureCause::launcher, "launcher"},
-                                                                   {FailureCause::specimen, "specimen"}};
+static constexpr std::pair<FailureCause, const char *> kNames[] = {
+    {FailureCause::none, "none"},
+    {FailureCause::deck_error, "deck_error"},
+    {FailureCause::engine_crash, "engine_crash"},
+    {FailureCause::lost_atoms, "lost_atoms"},
+    {FailureCause::bond_atoms_missing, "bond_atoms_missing"},
+    {FailureCause::not_a_number, "not_a_number"},
+    {FailureCause::timeout, "timeout"},
+    {FailureCause::no_progress, "no_progress"},
+    {FailureCause::truncated_output, "truncated_output"},
+    {FailureCause::missing_output, "missing_output"},
+    {FailureCause::bad_output, "bad_output"},
+    {FailureCause::launcher, "launcher"},
+    {FailureCause::specimen, "specimen"}};
 
 std::string to_string(FailureCause cause) {
   for (const auto &[value, name] : kNames)

@@ -9,16 +9,16 @@ namespace bondlab {
 namespace {
 
 const char *const kDeck =
-    "# a deck\n"                       // 1
-    "variable a index 3   # three\n"   // 2
-    "units si\n"                       // 3
-    "if \"${a} == 3\" then &\n"        // 4
-    "  \"variable q equal 4\" &\n"     // 5
-    "  \"variable r equal 5\"\n"       // 6
-    "label again\n"                    // 7
-    "run 10\n"                         // 8
-    "jump SELF again\n"                // 9
-    "units si\n";                      // 10
+    "# a deck\n"                      // 1
+    "variable a index 3   # three\n"  // 2
+    "units si\n"                      // 3
+    "if \"${a} == 3\" then &\n"       // 4
+    "  \"variable q equal 4\" &\n"    // 5
+    "  \"variable r equal 5\"\n"      // 6
+    "label again\n"                   // 7
+    "run 10\n"                        // 8
+    "jump SELF again\n"               // 9
+    "units si\n";                     // 10
 
 TEST(LastDeckLine, IsTheCommandEchoedLast) {
   EXPECT_EQ(last_deck_line(kDeck, "LIGGGHTS\n# a deck\nvariable a index 3   # three\n"), 2);
@@ -28,13 +28,19 @@ TEST(LastDeckLine, IsTheCommandEchoedLast) {
 }
 
 TEST(LastDeckLine, JoinsContinuedLinesAsTheEngineDoes) {
-  EXPECT_EQ(last_deck_line(kDeck, "units si\nif \"${a} == 3\" then   \"variable q equal 4\"   \"variable r equal 5\"\nvariable q equal 4\n"), 4);
+  EXPECT_EQ(last_deck_line(kDeck,
+                           "units si\nif \"${a} == 3\" then   \"variable q equal 4\"   \"variable "
+                           "r equal 5\"\nvariable q equal 4\n"),
+            4);
 }
 
 TEST(LastDeckLine, TellsEqualLinesApartByWhatCameBefore) {
   EXPECT_EQ(last_deck_line(kDeck, "units si\n"), 3);
   EXPECT_EQ(last_deck_line(kDeck, "units si\nrun 10\nunits si\n"), 10);
-  EXPECT_EQ(last_deck_line(kDeck, "units si\nlabel again\nrun 10\njump SELF again\nlabel again\nrun 10\n"), 8) << "after a jump back";
+  EXPECT_EQ(last_deck_line(kDeck,
+                           "units si\nlabel again\nrun 10\njump SELF again\nlabel again\nrun 10\n"),
+            8)
+      << "after a jump back";
 }
 
 TEST(LogTail, IsTheEndOfTheLogOrOfTheScreen) {

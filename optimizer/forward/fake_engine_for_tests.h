@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Job: a study, an engine and a ledger made of shell scripts, so that a driver's behaviour is tested in seconds; tests only.
-// Method: testdata/fake_engine.sh does what the deck variable `act` says (0 a good run, 1 a crash, ... see there).
+// Job: a study, an engine and a ledger made of shell scripts, so that a driver's behaviour is
+// tested in seconds; tests only. Method: testdata/fake_engine.sh does what the deck variable `act`
+// says (0 a good run, 1 a crash, ... see there).
 #pragma once
 
 #include <cstdlib>
@@ -26,7 +27,9 @@ struct FakeEngine {
     setenv("FAKE_LEDGER", (folder / "ledger").c_str(), 1);
   }
 
-  ForwardRequest request(double act, const std::string &test = "fake") const { return {test, {{"act", act}}, 0}; }
+  ForwardRequest request(double act, const std::string &test = "fake") const {
+    return {test, {{"act", act}}, 0};
+  }
 
   std::vector<ForwardOutcome> run(const std::vector<double> &acts) {
     std::vector<ForwardRequest> requests;

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Job: the one interface between those who decide which points to run and whatever computes them: a batch of requests in,
+// Job: the one interface between those who decide which points to run and whatever computes them: a
+// batch of requests in,
 //   a batch of outcomes (curves, or a named failure) out.
-// Method: an outcome stands at the index of its request. A failed run is an outcome, not an exception: one bad point never
+// Method: an outcome stands at the index of its request. A failed run is an outcome, not an
+// exception: one bad point never
 //   loses a batch. Equal requests in one batch are computed once.
-// Units: SI. Failure: run() throws UserError for what concerns the whole batch (engine not found, ranks x jobs beyond the
-//   cores, a store of another version) and Interrupted when SIGINT or SIGTERM stopped it (finished runs are kept).
+// Units: SI. Failure: run() throws UserError for what concerns the whole batch (engine not found,
+// ranks x jobs beyond the
+//   cores, a store of another version) and Interrupted when SIGINT or SIGTERM stopped it (finished
+//   runs are kept).
 #pragma once
 
 #include <functional>
@@ -44,7 +48,8 @@ FailureCause failure_cause_from(const std::string &name);
 
 struct Failure {
   FailureCause cause = FailureCause::none;
-  std::string message;        // one or two sentences, with the deck's file and line or the engine's words where known
+  std::string message;  // one or two sentences, with the deck's file and line or the engine's words
+                        // where known
   std::string run_directory;  // kept
   std::string command;        // replays the run
   std::string log_tail;       // last lines of what the engine wrote
@@ -59,12 +64,13 @@ struct ForwardOutcome {
   std::string replay_command;
   double wall_seconds = 0;
   bool from_store = false;
-  std::map<std::string, double> deck_variables;  // every numeric deck variable of the run (fixed, set, specimen's dimensions), SI
+  std::map<std::string, double> deck_variables;  // every numeric deck variable of the run (fixed,
+                                                 // set, specimen's dimensions), SI
 };
 
 struct BatchProgress {
-  int total = 0;       // different runs in the batch
-  int done = 0;        // finished well, from_store included
+  int total = 0;  // different runs in the batch
+  int done = 0;   // finished well, from_store included
   int from_store = 0;
   int failed = 0;
   int running = 0;
@@ -74,7 +80,8 @@ struct BatchProgress {
 
 class Interrupted : public std::runtime_error {
  public:
-  explicit Interrupted(int signal) : std::runtime_error("interrupted by a signal"), signal_(signal) {}
+  explicit Interrupted(int signal)
+      : std::runtime_error("interrupted by a signal"), signal_(signal) {}
   int signal() const { return signal_; }
 
  private:

@@ -26,8 +26,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char *kMark = "BONDLAB_RUN_DIR";
-constexpr double kGrace = 2;          // s between SIGTERM and SIGKILL: mpirun needs some tenths to end its ranks
-constexpr double kLookInterval = 0.5; // s between looks at the watched files
+constexpr double kGrace =
+    2;  // s between SIGTERM and SIGKILL: mpirun needs some tenths to end its ranks
+constexpr double kLookInterval = 0.5;  // s between looks at the watched files
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -41,7 +42,8 @@ std::vector<pid_t> processes_of_run(const fs::path &directory) {
     const std::string name = entry.path().filename().string();
     if (name.find_first_not_of("0123456789") != std::string::npos) continue;
     std::ifstream stream(entry.path() / "environ", std::ios::binary);
-    const std::string environment((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+    const std::string environment((std::istreambuf_iterator<char>(stream)),
+                                  std::istreambuf_iterator<char>());
     for (std::size_t begin = 0; begin < environment.size();) {
       const std::size_t end = std::min(environment.find('\0', begin), environment.size());
       if (environment.compare(begin, end - begin, mark) == 0) {
@@ -82,7 +84,8 @@ EngineProcess::EngineProcess(const Launch &launch) : launch_(launch) {
   environment.push_back(nullptr);
 
   int report[2];  // the child's errno, if it can't start
-  if (pipe2(report, O_CLOEXEC) != 0) throw UserError(std::string("no pipe for a new process: ") + std::strerror(errno));
+  if (pipe2(report, O_CLOEXEC) != 0)
+    throw UserError(std::string("no pipe for a new process: ") + std::strerror(errno));
   const pid_t parent = getpid();
   pid_ = fork();
   if (pid_ < 0) {
@@ -100,8 +103,8 @@ EngineProcess::EngineProcess(const Launch &launch) : launch_(launch) {
     sigprocmask(SIG_SETMASK, &none, nullptr);
     const int input = open("/dev/null", O_RDONLY);
     const int output = open(launch_.screen.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    if (getppid() == parent && input >= 0 && output >= 0 && dup2(input, 0) == 0 && dup2(output, 1) == 1 && dup2(output, 2) == 2 &&
-        chdir(launch_.directory.c_str()) == 0)
+    if (getppid() == parent && input >= 0 && output >= 0 && dup2(input, 0) == 0 &&
+        dup2(output, 1) == 1 && dup2(output, 2) == 2 && chdir(launch_.directory.c_str()) == 0)
       execve(arguments[0], arguments.data(), environment.data());
     const int reason = errno;
     if (write(report[1], &reason, sizeof reason) < 0) _exit(126);
@@ -116,7 +119,8 @@ EngineProcess::EngineProcess(const Launch &launch) : launch_(launch) {
   if (got > 0) {
     waitpid(pid_, nullptr, 0);
     pid_ = -1;
-    throw UserError("'" + launch_.command[0] + "' can't be started in '" + launch_.directory.string() + "': " + std::strerror(reason));
+    throw UserError("'" + launch_.command[0] + "' can't be started in '" +
+                    launch_.directory.string() + "': " + std::strerror(reason));
   }
   started_ = last_progress_ = last_look_ = Clock::now();
 }
@@ -156,7 +160,8 @@ bool EngineProcess::poll() {
     end_.wall_seconds = seconds();
     end_.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     end_.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-    if (end_.status != 0) kill_processes_of_run(launch_.directory);  // a crashed mpirun may leave ranks behind
+    if (end_.status != 0)
+      kill_processes_of_run(launch_.directory);  // a crashed mpirun may leave ranks behind
     return true;
   }
   if (terminating_) {
@@ -186,7 +191,8 @@ void EngineProcess::kill() {
   const Clock::time_point begin = Clock::now();
   int status = 0;
   pid_t got = 0;
-  while ((got = waitpid(pid_, &status, WNOHANG)) == 0 && seconds_since(begin) < 0.5) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  while ((got = waitpid(pid_, &status, WNOHANG)) == 0 && seconds_since(begin) < 0.5)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
   kill_processes_of_run(launch_.directory);
   if (got == 0) waitpid(pid_, &status, 0);
   ended_ = true;

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Job: start one engine run as a session of processes of its own, watch it, and end all of it when it must end.
-// Method: fork, setsid, exec with standard input from /dev/null and both outputs in a file. poll() looks whether it ended,
-//   whether the wall limit is over, and whether any watched file still grows; what must end gets SIGTERM, and SIGKILL
-//   two seconds later. Killing goes by the environment variable BONDLAB_RUN_DIR, which every process of a run inherits:
-//   mpirun puts its ranks into process groups of their own, so a group isn't enough. The run gets SIGTERM when the thread
-//   that started it dies (kill -9 of bondlab).
-// Units: seconds. Failure: UserError when the program can't be started. Limits: Linux (/proc, prctl).
+// Job: start one engine run as a session of processes of its own, watch it, and end all of it when
+// it must end. Method: fork, setsid, exec with standard input from /dev/null and both outputs in a
+// file. poll() looks whether it ended,
+//   whether the wall limit is over, and whether any watched file still grows; what must end gets
+//   SIGTERM, and SIGKILL two seconds later. Killing goes by the environment variable
+//   BONDLAB_RUN_DIR, which every process of a run inherits: mpirun puts its ranks into process
+//   groups of their own, so a group isn't enough. The run gets SIGTERM when the thread that started
+//   it dies (kill -9 of bondlab).
+// Units: seconds. Failure: UserError when the program can't be started. Limits: Linux (/proc,
+// prctl).
 #pragma once
 
 #include <sys/types.h>
@@ -20,12 +23,13 @@
 namespace bondlab {
 
 struct Launch {
-  std::vector<std::string> command;        // command[0] is a path
-  std::filesystem::path directory;         // of the run: the working directory, and its mark in the environment
+  std::vector<std::string> command;  // command[0] is a path
+  std::filesystem::path
+      directory;  // of the run: the working directory, and its mark in the environment
   std::map<std::string, std::string> environment;  // beside our own
-  std::filesystem::path screen;            // gets standard output and error
-  double wall_limit = 0;                   // s
-  double stall_limit = 0;                  // s without growth of any watched file; 0: not watched
+  std::filesystem::path screen;                    // gets standard output and error
+  double wall_limit = 0;                           // s
+  double stall_limit = 0;  // s without growth of any watched file; 0: not watched
   std::vector<std::filesystem::path> watched;
 };
 
@@ -64,7 +68,8 @@ class EngineProcess {
   RunEnd end_;
 };
 
-// Kills every process that carries this run directory in its environment: what a dead bondlab left behind.
+// Kills every process that carries this run directory in its environment: what a dead bondlab left
+// behind.
 void kill_processes_of_run(const std::filesystem::path &directory);
 
 }  // namespace bondlab

@@ -47,7 +47,8 @@ TEST(EngineProcess, RunsInItsFolderWithOutputInAFileAndNoInput) {
   EXPECT_EQ(end.reason, EndReason::by_itself);
   EXPECT_EQ(end.status, 4);
   EXPECT_EQ(end.signal, 0);
-  EXPECT_EQ(read_text_file(folder / "screen.txt"), std::filesystem::canonical(folder.path()).string() + "\nblue\n");
+  EXPECT_EQ(read_text_file(folder / "screen.txt"),
+            std::filesystem::canonical(folder.path()).string() + "\nblue\n");
 }
 
 TEST(EngineProcess, ReportsTheSignalThatEndedIt) {
@@ -74,7 +75,9 @@ TEST(EngineProcess, AProgramThatIsNotThereIsAnError) {
 TEST(EngineProcess, TheWallLimitEndsTheWholeFamilyEvenInGroupsOfItsOwn) {
   const TestFolder folder;
   // As mpirun does: the children get process groups of their own; one ignores SIGTERM.
-  Launch launch = shell(folder, "setsid sh -c 'trap \"\" TERM; echo $$ >one; sleep 100' & sh -c 'echo $$ >two; exec sleep 100' & wait");
+  Launch launch = shell(folder,
+                        "setsid sh -c 'trap \"\" TERM; echo $$ >one; sleep 100' & sh -c 'echo $$ "
+                        ">two; exec sleep 100' & wait");
   launch.wall_limit = 0.5;
   EngineProcess process(launch);
   const RunEnd end = wait_for(process);
@@ -87,20 +90,23 @@ TEST(EngineProcess, TheWallLimitEndsTheWholeFamilyEvenInGroupsOfItsOwn) {
 
 TEST(EngineProcess, TheWatchdogWaitsWhileAFileGrows) {
   const TestFolder folder;
-  Launch launch = shell(folder, "for i in 1 2 3 4 5 6 7 8; do echo $i >>log; sleep 0.3; done; sleep 100");
+  Launch launch =
+      shell(folder, "for i in 1 2 3 4 5 6 7 8; do echo $i >>log; sleep 0.3; done; sleep 100");
   launch.watched = {folder / "log"};
   launch.stall_limit = 1;
   EngineProcess process(launch);
   const RunEnd end = wait_for(process);
   EXPECT_EQ(end.reason, EndReason::stalled);
-  EXPECT_GT(end.wall_seconds, 2.4 + 1 - 0.5) << "growth until 2.4 s, then the limit, less one interval of looking";
+  EXPECT_GT(end.wall_seconds, 2.4 + 1 - 0.5)
+      << "growth until 2.4 s, then the limit, less one interval of looking";
   EXPECT_EQ(read_text_file(folder / "log"), "1\n2\n3\n4\n5\n6\n7\n8\n");
 }
 
 TEST(EngineProcess, KillEndsItAtOnce) {
   const TestFolder folder;
   EngineProcess process(shell(folder, "trap '' TERM; echo $$ >one; while :; do sleep 0.1; done"));
-  for (int i = 0; i < 400 && !std::filesystem::exists(folder / "one"); ++i) std::this_thread::sleep_for(5ms);
+  for (int i = 0; i < 400 && !std::filesystem::exists(folder / "one"); ++i)
+    std::this_thread::sleep_for(5ms);
   std::this_thread::sleep_for(50ms);
   process.kill();
   EXPECT_TRUE(process.poll());
@@ -115,7 +121,8 @@ TEST(EngineProcess, DiesWithTheProcessThatStartedIt) {
     EngineProcess process(shell(folder, "echo $$ >one; exec sleep 100"));
     for (;;) pause();
   }
-  for (int i = 0; i < 400 && !std::filesystem::exists(folder / "one"); ++i) std::this_thread::sleep_for(5ms);
+  for (int i = 0; i < 400 && !std::filesystem::exists(folder / "one"); ++i)
+    std::this_thread::sleep_for(5ms);
   std::this_thread::sleep_for(50ms);
   EXPECT_TRUE(alive(folder, "one"));
   kill(driver, SIGKILL);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Job: tell processes apart beyond their numbers (declared in run_store.h). Linux: /proc/PID/stat, field 22, and the boot id.
+// Job: tell processes apart beyond their numbers (declared in run_store.h). Linux: /proc/PID/stat,
+// field 22, and the boot id.
 #include <unistd.h>
 
 #include <fstream>
@@ -26,7 +27,8 @@ ProcessIdentity process_identity(std::int64_t pid) {
   process.boot = first_line("/proc/sys/kernel/random/boot_id");
   process.pid = pid;
   const std::string stat = first_line("/proc/" + std::to_string(pid) + "/stat");
-  const std::size_t name_end = stat.rfind(')');  // the name may contain anything, also blanks and brackets
+  const std::size_t name_end =
+      stat.rfind(')');  // the name may contain anything, also blanks and brackets
   if (name_end == std::string::npos) return process;
   std::istringstream fields(stat.substr(name_end + 1));
   std::string state, skipped;

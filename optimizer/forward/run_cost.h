@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // Job: say how long a forward run takes before it is started.
-// Method: the mean of the finished runs of the same workload where the store knows some; else an estimate from the number
-//   of particles and of time steps. Steps: the closing at which the specimen should fail, over the platen speed, over
-//   the stable time step of a grain on its stiffest contacts; the cost of a particle and step is a measured constant.
-// Units: seconds. Failure: no figure (nullopt) when the deck hasn't the variables the estimate needs.
-// Limits: the estimate is good to a factor of about 3: the strain at failure isn't known before the run. It is shown as an
+// Method: the mean of the finished runs of the same workload where the store knows some; else an
+// estimate from the number
+//   of particles and of time steps. Steps: the closing at which the specimen should fail, over the
+//   platen speed, over the stable time step of a grain on its stiffest contacts; the cost of a
+//   particle and step is a measured constant.
+// Units: seconds. Failure: no figure (nullopt) when the deck hasn't the variables the estimate
+// needs. Limits: the estimate is good to a factor of about 3: the strain at failure isn't known
+// before the run. It is shown as an
 //   estimate, and the first run replaces it.
 #pragma once
 

@@ -20,12 +20,14 @@ constexpr const char *kReplay = "replay.sh";
 
 // What mpirun needs to start as root in a container, and one thread a rank.
 const std::map<std::string, std::string> &mpi_environment() {
-  static const std::map<std::string, std::string> variables{
-      {"OMPI_ALLOW_RUN_AS_ROOT", "1"}, {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"}, {"OMP_NUM_THREADS", "1"}};
+  static const std::map<std::string, std::string> variables{{"OMPI_ALLOW_RUN_AS_ROOT", "1"},
+                                                            {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
+                                                            {"OMP_NUM_THREADS", "1"}};
   return variables;
 }
 
-std::map<std::string, std::string> run_environment(const RunPlan &plan, const RunKey &key, std::int64_t id) {
+std::map<std::string, std::string> run_environment(const RunPlan &plan, const RunKey &key,
+                                                   std::int64_t id) {
   std::map<std::string, std::string> variables = mpi_environment();
   variables["BONDLAB_RUN_ID"] = std::to_string(id);
   variables["BONDLAB_RUN_KEY"] = key.full;
@@ -50,34 +52,55 @@ std::string quoted(const std::string &text) {
   return result + "'";
 }
 
-std::string replay_command(const fs::path &folder) { return "sh " + quoted((folder / kReplay).string()); }
+std::string replay_command(const fs::path &folder) {
+  return "sh " + quoted((folder / kReplay).string());
+}
 
-std::string new_run_folder(const fs::path &results, std::int64_t id, const RunPlan &plan, const RunKey &key) {
+std::string new_run_folder(const fs::path &results, std::int64_t id, const RunPlan &plan,
+                           const RunKey &key) {
   char number[24];
   std::snprintf(number, sizeof number, "%06lld", static_cast<long long>(id));
-  const std::string base = std::string("runs/") + number + "-" + plan.test + "-" + key.full.substr(0, 8);
+  const std::string base =
+      std::string("runs/") + number + "-" + plan.test + "-" + key.full.substr(0, 8);
   make_folder(results / "runs");
   for (int attempt = 1; attempt < 1000; ++attempt) {
     const std::string name = attempt == 1 ? base : base + "-" + std::to_string(attempt);
     std::error_code error;
     if (fs::create_directory(results / name, error)) return name;
-    if (error) throw UserError({(results / name).string(), 0, 0}, "the folder can't be made: " + error.message());
+    if (error)
+      throw UserError({(results / name).string(), 0, 0},
+                      "the folder can't be made: " + error.message());
   }
-  throw UserError({(results / base).string(), 0, 0}, "a thousand folders of this run are there already; remove them or choose another --out");
+  throw UserError(
+      {(results / base).string(), 0, 0},
+      "a thousand folders of this run are there already; remove them or choose another --out");
 }
 
 std::vector<std::string> engine_command(const Engine &engine, const RunPlan &plan) {
-  // --bind-to none: several mpirun at a time would all bind to the first cores. --oversubscribe: the slots are counted by us.
-  std::vector<std::string> command{engine.mpirun.string(), "-np", std::to_string(plan.ranks), "--oversubscribe", "--bind-to", "none",
-                                   engine.program.string(), "-in", plan.deck.string(), "-log", kLogName};
-  const auto add = [&command](const std::string &name, const std::string &text) { command.insert(command.end(), {"-var", name, text}); };
+  // --bind-to none: several mpirun at a time would all bind to the first cores. --oversubscribe:
+  // the slots are counted by us.
+  std::vector<std::string> command{engine.mpirun.string(),
+                                   "-np",
+                                   std::to_string(plan.ranks),
+                                   "--oversubscribe",
+                                   "--bind-to",
+                                   "none",
+                                   engine.program.string(),
+                                   "-in",
+                                   plan.deck.string(),
+                                   "-log",
+                                   kLogName};
+  const auto add = [&command](const std::string &name, const std::string &text) {
+    command.insert(command.end(), {"-var", name, text});
+  };
   if (plan.wants_deck_dir) add("deck_dir", plan.deck.parent_path().string());
   if (plan.wants_specimen) add("specimen", plan.specimen_file.path.string());
   for (const auto &[name, text] : plan.variables) add(name, text);
   return command;
 }
 
-Launch make_launch(const Engine &engine, const RunPlan &plan, const RunKey &key, std::int64_t id, const fs::path &folder) {
+Launch make_launch(const Engine &engine, const RunPlan &plan, const RunKey &key, std::int64_t id,
+                   const fs::path &folder) {
   Launch launch;
   launch.command = engine_command(engine, plan);
   launch.directory = folder;
@@ -88,7 +111,8 @@ Launch make_launch(const Engine &engine, const RunPlan &plan, const RunKey &key,
   return launch;
 }
 
-void write_manifest(const fs::path &folder, const Engine &engine, const RunPlan &plan, const RunKey &key, const RunHistory &history) {
+void write_manifest(const fs::path &folder, const Engine &engine, const RunPlan &plan,
+                    const RunKey &key, const RunHistory &history) {
   nlohmann::ordered_json manifest;
   manifest["bondlab_run"] = 1;
   manifest["id"] = history.id;
@@ -123,22 +147,29 @@ void write_manifest(const fs::path &folder, const Engine &engine, const RunPlan 
   write_file(folder / kManifest, manifest.dump(1) + "\n");
 }
 
-void write_replay(const fs::path &folder, const Engine &engine, const RunPlan &plan, const RunKey &key, std::int64_t id) {
-  std::string script = "#!/bin/sh\n# Repeats run " + std::to_string(id) + " (" + plan.test + ") in a folder of its own: sh replay.sh [FOLDER]\nset -e\n" +
-                       "folder=${1:-$(dirname \"$0\")/replay}\nmkdir -p \"$folder\"\ncd \"$folder\"\n";
-  for (const auto &[name, value] : run_environment(plan, key, id)) script += "export " + name + "=" + value + "\n";
+void write_replay(const fs::path &folder, const Engine &engine, const RunPlan &plan,
+                  const RunKey &key, std::int64_t id) {
+  std::string script =
+      "#!/bin/sh\n# Repeats run " + std::to_string(id) + " (" + plan.test +
+      ") in a folder of its own: sh replay.sh [FOLDER]\nset -e\n" +
+      "folder=${1:-$(dirname \"$0\")/replay}\nmkdir -p \"$folder\"\ncd \"$folder\"\n";
+  for (const auto &[name, value] : run_environment(plan, key, id))
+    script += "export " + name + "=" + value + "\n";
   script += "exec";
-  for (const std::string &word : engine_command(engine, plan)) script += (word == "-var" || word == "-in" ? " \\\n  " : " ") + quoted(word);
+  for (const std::string &word : engine_command(engine, plan))
+    script += (word == "-var" || word == "-in" ? " \\\n  " : " ") + quoted(word);
   write_file(folder / kReplay, script + " </dev/null\n");
 }
 
 void thin_out(const fs::path &folder, const RunPlan &plan) {
-  std::vector<std::string> kept{plan.curve, plan.events, plan.particles, kLogName, kManifest, kReplay};
+  std::vector<std::string> kept{plan.curve, plan.events, plan.particles,
+                                kLogName,   kManifest,   kReplay};
   kept.insert(kept.end(), plan.keep.begin(), plan.keep.end());
   std::error_code ignored;
   std::vector<fs::path> removed;
   for (const fs::directory_entry &entry : fs::directory_iterator(folder, ignored))
-    if (std::find(kept.begin(), kept.end(), entry.path().filename().string()) == kept.end()) removed.push_back(entry.path());
+    if (std::find(kept.begin(), kept.end(), entry.path().filename().string()) == kept.end())
+      removed.push_back(entry.path());
   for (const fs::path &path : removed) fs::remove_all(path, ignored);
 }
 

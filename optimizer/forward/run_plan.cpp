@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void add_deck(Sha256 &hash, const fs::path &file, const fs::path &folder, std::set<fs::path> &seen) {
+void add_deck(Sha256 &hash, const fs::path &file, const fs::path &folder,
+              std::set<fs::path> &seen) {
   if (!seen.insert(file.lexically_normal()).second) return;
   const std::string text = read_text_file(file);
   hash.add_field("file", text);
@@ -27,15 +28,19 @@ void add_deck(Sha256 &hash, const fs::path &file, const fs::path &folder, std::s
     ++number;
     std::istringstream words(line.substr(0, line.find('#')));
     std::string command, name;
-    if (!(words >> command >> name) || (command != "include" && command != "jump") || name == "SELF") continue;
+    if (!(words >> command >> name) || (command != "include" && command != "jump") ||
+        name == "SELF")
+      continue;
     const std::string variable = "${deck_dir}";
     if (name.rfind(variable, 0) == 0) name = folder.string() + name.substr(variable.size());
     const fs::path included = name;
     if (name.find('$') != std::string::npos || !included.is_absolute())
-      throw UserError({file.string(), number, 0}, "the file '" + name + "' can't be found from a run's own folder; write " + command +
-                                                      " ${deck_dir}/NAME below a line 'variable deck_dir index .'");
+      throw UserError({file.string(), number, 0},
+                      "the file '" + name + "' can't be found from a run's own folder; write " +
+                          command + " ${deck_dir}/NAME below a line 'variable deck_dir index .'");
     std::error_code error;
-    if (!fs::is_regular_file(included, error)) throw UserError({file.string(), number, 0}, "there is no file '" + included.string() + "'");
+    if (!fs::is_regular_file(included, error))
+      throw UserError({file.string(), number, 0}, "there is no file '" + included.string() + "'");
     add_deck(hash, included, folder, seen);
   }
 }
@@ -48,12 +53,20 @@ std::optional<double> default_number(const std::string &text, const std::string 
   return to_si(value, unit.empty() ? "1" : unit);
 }
 
-// The specimen's dimensions under the names decks use. A cylinder loaded across its axis is a disc of its height.
+// The specimen's dimensions under the names decks use. A cylinder loaded across its axis is a disc
+// of its height.
 std::map<std::string, double> dimensions_of(const SpecimenEntry &specimen) {
   switch (specimen.shape) {
-    case SpecimenShape::rectangle: return {{"width", specimen.width}, {"height", specimen.height}, {"thickness", specimen.thickness}};
-    case SpecimenShape::disc: return {{"diameter", specimen.diameter}, {"thickness", specimen.thickness}};
-    case SpecimenShape::cylinder: return {{"diameter", specimen.diameter}, {"height", specimen.height}, {"thickness", specimen.height}};
+    case SpecimenShape::rectangle:
+      return {{"width", specimen.width},
+              {"height", specimen.height},
+              {"thickness", specimen.thickness}};
+    case SpecimenShape::disc:
+      return {{"diameter", specimen.diameter}, {"thickness", specimen.thickness}};
+    case SpecimenShape::cylinder:
+      return {{"diameter", specimen.diameter},
+              {"height", specimen.height},
+              {"thickness", specimen.height}};
   }
   return {};
 }
@@ -89,7 +102,9 @@ RunPlan plan_run(const Study &study, const ForwardRequest &request) {
 
   for (const auto &[name, text] : definition.deck_defaults) {
     const auto declared = definition.variables.find(name);
-    if (const auto number = default_number(text, declared == definition.variables.end() ? "1" : declared->second.unit)) plan.numeric[name] = *number;
+    if (const auto number = default_number(
+            text, declared == definition.variables.end() ? "1" : declared->second.unit))
+      plan.numeric[name] = *number;
   }
   const auto set_number = [&](const std::string &name, double value) {
     plan.numeric[name] = value;
@@ -106,10 +121,13 @@ RunPlan plan_run(const Study &study, const ForwardRequest &request) {
     if (declared == definition.variables.end()) {
       std::vector<std::string> known;
       for (const auto &[known_name, variable] : definition.variables) known.push_back(known_name);
-      throw UserError("the test '" + entry.name + "' has no variable '" + name + "'; known: " + join(known));
+      throw UserError("the test '" + entry.name + "' has no variable '" + name +
+                      "'; known: " + join(known));
     }
     const std::string why = why_not_allowed(declared->second, value);
-    if (!why.empty()) throw UserError("the variable '" + name + "' of the test '" + entry.name + "' can't be " + format_quantity(value, declared->second.unit, 6) + "; " + why);
+    if (!why.empty())
+      throw UserError("the variable '" + name + "' of the test '" + entry.name + "' can't be " +
+                      format_quantity(value, declared->second.unit, 6) + "; " + why);
     set_number(name, value);
     plan.varied.push_back(name);
   }
@@ -145,7 +163,8 @@ std::string workload_of(const RunPlan &plan) {
   hash.add_field("deck", plan.deck_hash);
   hash.add_field("ranks", std::to_string(plan.ranks));
   for (const auto &[name, text] : plan.variables)
-    if (std::find(plan.varied.begin(), plan.varied.end(), name) == plan.varied.end()) hash.add_field("variable " + name, text);
+    if (std::find(plan.varied.begin(), plan.varied.end(), name) == plan.varied.end())
+      hash.add_field("variable " + name, text);
   SpecimenRequest specimen = specimen_request(plan.specimen, 0);
   specimen.seed = 0;
   hash.add_field("specimen", canonical_text(specimen));

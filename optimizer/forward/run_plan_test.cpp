@@ -10,7 +10,9 @@
 namespace bondlab {
 namespace {
 
-std::string full_key(const RunPlan &plan, const std::string &engine = "engine") { return key_of(plan, engine).full; }
+std::string full_key(const RunPlan &plan, const std::string &engine = "engine") {
+  return key_of(plan, engine).full;
+}
 
 TEST(RunKey, ChangesWithEverythingThatCanChangeTheResult) {
   const FakeEngine fake;
@@ -61,7 +63,8 @@ TEST(RunPlan, ValuesGoToTheDeckInItsOwnUnits) {
   const FakeEngine fake;
   const RunPlan plan = plan_run(fake.study, fake.request(1e-3));
   EXPECT_EQ(plan.variables.at("act"), "0.001");
-  EXPECT_EQ(plan.variables.at("angle"), "30") << "degrees in the study, radians in SI, degrees in the deck";
+  EXPECT_EQ(plan.variables.at("angle"), "30")
+      << "degrees in the study, radians in SI, degrees in the deck";
   EXPECT_EQ(plan.variables.at("width"), "0.05") << "from the specimen, because the deck has it";
   EXPECT_EQ(plan.variables.count("height"), 0u) << "the deck doesn't have it";
   EXPECT_EQ(plan.variables.count("value"), 0u) << "the deck's default stands";
@@ -77,7 +80,8 @@ TEST(RunPlan, WorkloadIsTheSameForEveryPointAndPackingOfATest) {
   EXPECT_EQ(workload_of(plan_run(fake.study, request)), workload);
   FakeEngine other;
   other.study.tests[0].variables["value"].number = 7;
-  EXPECT_NE(workload_of(plan_run(other.study, request)), workload) << "a fixed variable (the platen speed, say) makes another workload";
+  EXPECT_NE(workload_of(plan_run(other.study, request)), workload)
+      << "a fixed variable (the platen speed, say) makes another workload";
 }
 
 std::string message(const std::filesystem::path &deck) {
@@ -91,17 +95,23 @@ std::string message(const std::filesystem::path &deck) {
 
 TEST(DeckHash, CoversIncludedFilesAndRefusesWhatItCannotFollow) {
   const TestFolder folder;
-  const auto deck = folder.write("in.a", "variable deck_dir index .\ninclude ${deck_dir}/common.in # shared\njump SELF again\n");
+  const auto deck = folder.write(
+      "in.a",
+      "variable deck_dir index .\ninclude ${deck_dir}/common.in # shared\njump SELF again\n");
   folder.write("common.in", "units si\n");
   const std::string before = message(deck);
   EXPECT_EQ(before.substr(0, 5), "hash ");
   EXPECT_EQ(message(deck), before);
   folder.write("common.in", "units cgs\n");
   EXPECT_NE(message(deck), before);
-  EXPECT_EQ(message(folder.write("in.b", "units si\ninclude common.in\n")).substr(0, 54), "in.b:2: the file 'common.in' can't be found from a run");
-  EXPECT_EQ(message(folder.write("in.c", "include ${other}/common.in\n")).substr(0, 33), "in.c:1: the file '${other}/common");
-  EXPECT_EQ(message(folder.write("in.d", "include ${deck_dir}/none.in\n")).substr(0, 24), "in.d:1: there is no file");
-  EXPECT_EQ(message(folder.write("in.e", "include ${deck_dir}/in.e\n")).substr(0, 5), "hash ") << "a file that includes itself ends";
+  EXPECT_EQ(message(folder.write("in.b", "units si\ninclude common.in\n")).substr(0, 54),
+            "in.b:2: the file 'common.in' can't be found from a run");
+  EXPECT_EQ(message(folder.write("in.c", "include ${other}/common.in\n")).substr(0, 33),
+            "in.c:1: the file '${other}/common");
+  EXPECT_EQ(message(folder.write("in.d", "include ${deck_dir}/none.in\n")).substr(0, 24),
+            "in.d:1: there is no file");
+  EXPECT_EQ(message(folder.write("in.e", "include ${deck_dir}/in.e\n")).substr(0, 5), "hash ")
+      << "a file that includes itself ends";
 }
 
 TEST(EngineCommand, GivesTheDeckEverythingByVar) {

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Job: remember every forward run, so that a finished one is never repeated and one that was cut off is done again.
-// Method: one SQLite file (WAL, synchronous=FULL: what was committed survives kill -9 and a power cut), one row a run key,
-//   one row a failure. A run belongs to the process that claimed it (host, boot, pid and the pid's start time), so that a run
-//   left `running` by a dead process is told from one that another bondlab is still computing. States and what comes next:
+// Job: remember every forward run, so that a finished one is never repeated and one that was cut
+// off is done again. Method: one SQLite file (WAL, synchronous=FULL: what was committed survives
+// kill -9 and a power cut), one row a run key,
+//   one row a failure. A run belongs to the process that claimed it (host, boot, pid and the pid's
+//   start time), so that a run left `running` by a dead process is told from one that another
+//   bondlab is still computing. States and what comes next:
 //     queued   asked for, nobody has begun      -> claimed when a process comes to it
-//     running  claimed by a process             -> if that process is gone: lost; else its result is waited for
-//     done     result in its folder             -> given out without running; its folder gone: lost
-//     failed   with a named cause               -> a later command tries again, up to max_attempts attempts in all
-//     lost     cut off, or its files are gone   -> claimed again like queued; not counted as an attempt
-// Units: seconds. Failure: UserError when the file isn't a store, is of another schema version, or can't be written.
-// Limits: WAL needs a local disk (not NFS). Processes on other hosts are judged by their heartbeat alone.
+//     running  claimed by a process             -> if that process is gone: lost; else its result
+//     is waited for done     result in its folder             -> given out without running; its
+//     folder gone: lost failed   with a named cause               -> a later command tries again,
+//     up to max_attempts attempts in all lost     cut off, or its files are gone   -> claimed again
+//     like queued; not counted as an attempt
+// Units: seconds. Failure: UserError when the file isn't a store, is of another schema version, or
+// can't be written. Limits: WAL needs a local disk (not NFS). Processes on other hosts are judged
+// by their heartbeat alone.
 #pragma once
 
 #include <cstdint>
@@ -46,13 +50,13 @@ struct RunRecord {
   std::string key, point, test, workload;
   std::uint64_t seed = 0;
   RunState state = RunState::queued;
-  int attempts = 0;  // begun and ended by themselves: done or failed
+  int attempts = 0;       // begun and ended by themselves: done or failed
   std::string directory;  // from the results folder
   FailureCause cause = FailureCause::none;
   std::string message;
   double wall_seconds = 0;
   ProcessIdentity owner;
-  double heartbeat = 0;    // s since 1970, of the owner
+  double heartbeat = 0;  // s since 1970, of the owner
 };
 
 class RunStore {
@@ -69,7 +73,8 @@ class RunStore {
   RunRecord get_or_queue(const RunKey &key, const RunPlan &plan);
   std::optional<RunRecord> find(const std::string &key) const;
 
-  // Takes a run that is queued, lost, failed or running in a dead process; false when somebody else was faster or has it.
+  // Takes a run that is queued, lost, failed or running in a dead process; false when somebody else
+  // was faster or has it.
   bool claim(std::int64_t id, const std::string &directory);
   void finish_done(std::int64_t id, double wall_seconds);
   void finish_failed(std::int64_t id, const Failure &failure, double wall_seconds);

@@ -34,7 +34,8 @@ RunPlan plan() {
 void sql(const std::filesystem::path &file, const std::string &text) {
   sqlite3 *database = nullptr;
   ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);
-  ASSERT_EQ(sqlite3_exec(database, text.c_str(), nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(database);
+  ASSERT_EQ(sqlite3_exec(database, text.c_str(), nullptr, nullptr, nullptr), SQLITE_OK)
+      << sqlite3_errmsg(database);
   sqlite3_close(database);
 }
 
@@ -175,15 +176,20 @@ TEST(RunStore, AnotherSchemaVersionIsAClearError) {
   EXPECT_NO_THROW(RunStore(folder / "s.sqlite"));
   sql(folder / "s.sqlite", "PRAGMA user_version = 7");
   EXPECT_EQ(message([&] { RunStore(folder / "s.sqlite"); }),
-            "this run store has schema version 7, this bondlab reads version 1; use the bondlab it was made with, or another --out");
+            "this run store has schema version 7, this bondlab reads version 1; use the bondlab it "
+            "was made with, or another --out");
 }
 
 TEST(RunStore, AFileThatIsNoStoreIsLeftAlone) {
   const TestFolder folder;
-  const auto text = folder.write("text.sqlite", "This is not a database, and it is long enough to be told from one by its first bytes.\n");
-  EXPECT_NE(message([&] { RunStore store(text); }).find("this file isn't a run store"), std::string::npos);
+  const auto text = folder.write(
+      "text.sqlite",
+      "This is not a database, and it is long enough to be told from one by its first bytes.\n");
+  EXPECT_NE(message([&] { RunStore store(text); }).find("this file isn't a run store"),
+            std::string::npos);
   sql(folder / "other.sqlite", "CREATE TABLE theirs (a)");
-  EXPECT_EQ(message([&] { RunStore store(folder / "other.sqlite"); }), "this SQLite file isn't a run store; choose another --out or move it away");
+  EXPECT_EQ(message([&] { RunStore store(folder / "other.sqlite"); }),
+            "this SQLite file isn't a run store; choose another --out or move it away");
   EXPECT_NE(message([&] { RunStore store(folder / "text.sqlite" / "s.sqlite"); }), "accepted");
 }
 

@@ -27,7 +27,8 @@ ResidualRow residual(const Target &target, const ResponseValue &simulated, doubl
   row.simulated = simulated.value;
   row.sd = sd;
   row.why = simulated.why;
-  row.value = simulated.had() ? (simulated.value - target.value) / sd : std::numeric_limits<double>::quiet_NaN();
+  row.value = simulated.had() ? (simulated.value - target.value) / sd
+                              : std::numeric_limits<double>::quiet_NaN();
   return row;
 }
 

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Job: for tests only: a granite study and a forward model in closed form, with the noise and the failures of real runs.
-// Method: power laws fitted to the 30 design points of a published parallel-bond study of granite (Table 3 of the article
-//   that inputs/studies/granite.toml names): with E_c in GPa, k = k_n/k_s, s = sigma_c in MPa
-//     E = 2.13 E_c^1.008 k^-0.20 GPa,  nu = 0.116 + 0.173 ln k,  UCS = 5.68 s^0.849 k^-0.231 E_c^0.085 MPa,
-//     sigma_t = 0.557 s^0.978 k^-0.264 MPa.
-//   The outcome is a curve from which response/ takes these figures, so that the whole path is under test. Noise is a
-//   hash of the variables' bits, the packing and a seed: the same request gives the same outcome, a change in the last
-//   digit gives another, as cracking does.
+// Job: for tests only: a granite study and a forward model in closed form, with the noise and the
+//   failures of real runs.
+// Method: power laws fitted to the 30 design points of a published parallel-bond study of granite
+//   (Table 3 of the article that inputs/studies/granite.toml names): with E_c in GPa, k = k_n/k_s,
+//   s = sigma_c in MPa
+//     E = 2.13 E_c^1.008 k^-0.20 GPa,  nu = 0.116 + 0.173 ln k,
+//     UCS = 5.68 s^0.849 k^-0.231 E_c^0.085 MPa,  sigma_t = 0.557 s^0.978 k^-0.264 MPa.
+//   The outcome is a curve from which response/ takes these figures, so that the whole path is
+//   under test. Noise is a hash of the variables' bits, the packing and a seed: the same request
+//   gives the same outcome, a change in the last digit gives another, as cracking does.
 // Units: SI at the interface.
 #pragma once
 
@@ -38,12 +40,14 @@ class GraniteEmulator : public ForwardModel {
  public:
   using Law = std::function<MacroFigures(const std::map<std::string, double> &)>;
 
-  Law law = [](const std::map<std::string, double> &v) { return granite_law(v.at("E_c"), v.at("kn_ks"), v.at("sigma_c")); };
+  Law law = [](const std::map<std::string, double> &v) {
+    return granite_law(v.at("E_c"), v.at("kn_ks"), v.at("sigma_c"));
+  };
   double noise_elastic = 0, noise_strength = 0;  // relative sd under any change of the request
   double packing_scatter = 0;                    // relative sd between packings, of the strengths
   std::uint64_t seed = 1;
-  std::function<FailureCause(const ForwardRequest &)> fail;    // none: the run succeeds
-  std::function<bool(const ForwardRequest &)> unfinished;      // true: the curve ends before the peak
+  std::function<FailureCause(const ForwardRequest &)> fail;  // none: the run succeeds
+  std::function<bool(const ForwardRequest &)> unfinished;    // true: the curve ends before the peak
 
   int batches = 0, runs = 0, repeated = 0;
   int largest_batch = 0;
@@ -112,8 +116,8 @@ class GraniteEmulator : public ForwardModel {
 
   static Curve curve(bool compression, const MacroFigures &f) {
     Curve curve;
-    curve.names = {"time",        "axial_stress",   "force_top", "force_bottom", "strain_platen",
-                   "strain_axial", "strain_lateral"};
+    curve.names = {"time",          "axial_stress", "force_top",     "force_bottom",
+                   "strain_platen", "strain_axial", "strain_lateral"};
     curve.units = {"s", "Pa", "N", "N", "1", "1", "1"};
     curve.columns.resize(curve.names.size());
     const double top = compression ? f.UCS : f.sigma_t * M_PI * 0.05 / 2;
@@ -131,7 +135,8 @@ class GraniteEmulator : public ForwardModel {
   std::set<std::tuple<std::string, int, std::map<std::string, double>>> seen_;
 };
 
-inline Parameter make_parameter(const std::string &name, const std::string &unit, double lower, double upper) {
+inline Parameter make_parameter(const std::string &name, const std::string &unit, double lower,
+                                double upper) {
   Parameter parameter;
   parameter.name = name;
   parameter.unit = unit;
@@ -142,8 +147,8 @@ inline Parameter make_parameter(const std::string &name, const std::string &unit
   return parameter;
 }
 
-inline Target make_target(const std::string &name, const std::string &test, const std::string &unit, double value,
-                          double relative_sd) {
+inline Target make_target(const std::string &name, const std::string &test, const std::string &unit,
+                          double value, double relative_sd) {
   Target target;
   target.name = name;
   target.test = test;
@@ -166,19 +171,24 @@ inline Study granite_study() {
     TestEntry test;
     test.name = name;
     test.test = name == "ucs" ? "uniaxial_compression" : "brazilian";
-    for (const std::string variable : {"E_c", "kn_ks", "sigma_c"}) test.definition.variables[variable].name = variable;
+    for (const std::string variable : {"E_c", "kn_ks", "sigma_c"})
+      test.definition.variables[variable].name = variable;
     study.tests.push_back(test);
   }
-  const auto respond = [&study](int test, const std::string &name, const std::string &unit, const std::string &function) {
-    study.tests[static_cast<std::size_t>(test)].definition.responses[name] = {name, unit, function, {}};
+  const auto respond = [&study](int test, const std::string &name, const std::string &unit,
+                                const std::string &function) {
+    study.tests[static_cast<std::size_t>(test)].definition.responses[name] = {
+        name, unit, function, {}};
   };
   respond(0, "E", "Pa", "uniaxial.tangent_modulus_gauge");
   respond(0, "nu", "1", "uniaxial.poisson_gauge");
   respond(0, "UCS", "Pa", "uniaxial.peak_stress");
   respond(1, "sigma_t", "Pa", "brazilian.tensile_strength");
-  study.parameters = {make_parameter("E_c", "GPa", 15e9, 45e9), make_parameter("kn_ks", "1", 1.2, 4),
+  study.parameters = {make_parameter("E_c", "GPa", 15e9, 45e9),
+                      make_parameter("kn_ks", "1", 1.2, 4),
                       make_parameter("sigma_c", "MPa", 15e6, 60e6)};
-  study.targets = {make_target("E", "ucs", "GPa", 41.5e9, 0.03), make_target("nu", "ucs", "1", 0.23, 0.05),
+  study.targets = {make_target("E", "ucs", "GPa", 41.5e9, 0.03),
+                   make_target("nu", "ucs", "1", 0.23, 0.05),
                    make_target("UCS", "ucs", "MPa", 138.8e6, 0.05),
                    make_target("sigma_t", "brazilian", "MPa", 9.5e6, 0.05)};
   FitEntry main, trade_off;

@@ -26,12 +26,13 @@ std::string failure_sentence(const Failure &failure) {
 Evaluator::Evaluator(const Study &study, const ParameterSpace &space, ForwardModel &model)
     : study_(study), space_(space), model_(model) {}
 
-Evaluator::Key Evaluator::key(const std::string &test, int packing, const TransformedPoint &point) const {
+Evaluator::Key Evaluator::key(const std::string &test, int packing,
+                              const TransformedPoint &point) const {
   return {test, packing, space_.to_physical(point).x};
 }
 
-void Evaluator::run(const std::vector<TransformedPoint> &points, const TargetIndices &targets, const std::string &phase,
-                    int packing) {
+void Evaluator::run(const std::vector<TransformedPoint> &points, const TargetIndices &targets,
+                    const std::string &phase, int packing) {
   run(points, std::vector<int>{packing}, targets, phase);
 }
 
@@ -68,8 +69,9 @@ void Evaluator::run(const std::vector<TransformedPoint> &points, const std::vect
   for (std::size_t i = 0; i < outcomes.size(); ++i) keep(keys[i], std::move(outcomes[i]));
 
   if (counts_.failed > study_.options.max_failed) {
-    std::string text = fmt::format("{} forward runs failed, the study allows {} ([fit] max_failed):", counts_.failed,
-                                   study_.options.max_failed);
+    std::string text = fmt::format(
+        "{} forward runs failed, the study allows {} ([fit] max_failed):", counts_.failed,
+        study_.options.max_failed);
     for (const auto &failure : failures_) text += "\n  " + failure_sentence(failure);
     throw FitFailed(text);
   }
@@ -95,7 +97,8 @@ void Evaluator::keep(const Key &key, ForwardOutcome outcome) {
       value.why = "the run failed, " + failure_sentence(outcome.failure);
     } else {
       try {
-        value.value = evaluate(definition.responses.at(target.response).function, outcome.curve, context);
+        value.value =
+            evaluate(definition.responses.at(target.response).function, outcome.curve, context);
         if (!std::isfinite(value.value)) value = {nan, "the response is not a finite number"};
       } catch (const ResponseError &error) {
         value.why = fmt::format("{}: {}", to_string(error.cause()), error.what());
@@ -107,20 +110,23 @@ void Evaluator::keep(const Key &key, ForwardOutcome outcome) {
   runs_.emplace(key, std::move(run));
 }
 
-ResponseValue Evaluator::value(const TransformedPoint &point, std::size_t target, int packing) const {
+ResponseValue Evaluator::value(const TransformedPoint &point, std::size_t target,
+                               int packing) const {
   const auto &entry = study_.targets.at(target);
   const auto found = runs_.find(key(entry.test, packing, point));
   if (found == runs_.end()) return {nan, "not run"};
   return found->second.responses.at(entry.name);
 }
 
-bool Evaluator::complete(const TransformedPoint &point, const TargetIndices &targets, int packing) const {
+bool Evaluator::complete(const TransformedPoint &point, const TargetIndices &targets,
+                         int packing) const {
   for (const std::size_t target : targets)
     if (!value(point, target, packing).had()) return false;
   return true;
 }
 
-const ForwardOutcome *Evaluator::outcome(const TransformedPoint &point, const std::string &test, int packing) const {
+const ForwardOutcome *Evaluator::outcome(const TransformedPoint &point, const std::string &test,
+                                         int packing) const {
   const auto found = runs_.find(key(test, packing, point));
   return found == runs_.end() ? nullptr : &found->second.outcome;
 }

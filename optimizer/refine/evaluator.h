@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Job: from parameter points to the figures of all targets, in batches, each run asked for once in a session.
-// Method: a batch of points and the targets wanted becomes one batch of forward requests: one a test, point and packing
-//   that was not asked for before, keyed by the exact bits of the physical values. Everything above (design, Jacobian,
-//   Marquardt, a second fit with more targets) goes through here, so that no run is made twice even beneath a solver
-//   that asks for the same point again, and every run ever made can serve as evidence.
-// Units: SI. Failure: a run that failed, or a curve that a response refuses, is a value with a reason. FitFailed when more
-//   runs failed than the study allows; UserError and Interrupted of the forward model pass through.
+// Job: from parameter points to the figures of all targets, in batches, each run asked for once in
+//   a session.
+// Method: a batch of points and the targets wanted becomes one batch of forward requests: one a
+//   test, point and packing that was not asked for before, keyed by the exact bits of the physical
+//   values. Everything above (design, Jacobian, Marquardt, a second fit with more targets) goes
+//   through here, so that no run is made twice even beneath a solver that asks for the same point
+//   again, and every run ever made can serve as evidence.
+// Units: SI. Failure: a run that failed, or a curve that a response refuses, is a value with a
+//   reason. FitFailed when more runs failed than the study allows; UserError and Interrupted of the
+//   forward model pass through.
 // Limits: outcomes with their curves stay in memory (some 200 kB a run).
 #pragma once
 
@@ -26,7 +29,8 @@
 
 namespace bondlab {
 
-// Too many forward runs failed, or none that a fit could start from. The text says which and where they are kept.
+// Too many forward runs failed, or none that a fit could start from. The text says which and where
+// they are kept.
 class FitFailed : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -44,12 +48,13 @@ class Evaluator {
   const Study &study() const { return study_; }
   const ParameterSpace &space() const { return space_; }
 
-  // Makes what is missing so that every target of `targets` is known at every point. `phase` labels new points.
-  void run(const std::vector<TransformedPoint> &points, const TargetIndices &targets, const std::string &phase,
-           int packing = 0);
+  // Makes what is missing so that every target of `targets` is known at every point. `phase` labels
+  // new points.
+  void run(const std::vector<TransformedPoint> &points, const TargetIndices &targets,
+           const std::string &phase, int packing = 0);
   // The same for several packings in one batch.
-  void run(const std::vector<TransformedPoint> &points, const std::vector<int> &packings, const TargetIndices &targets,
-           const std::string &phase);
+  void run(const std::vector<TransformedPoint> &points, const std::vector<int> &packings,
+           const TargetIndices &targets, const std::string &phase);
 
   // A figure that run() has made before; "not run" otherwise.
   ResponseValue value(const TransformedPoint &point, std::size_t target, int packing = 0) const;
@@ -58,7 +63,8 @@ class Evaluator {
   bool complete(const TransformedPoint &point, const TargetIndices &targets, int packing = 0) const;
 
   // The outcome of one test; nullptr when it was not run.
-  const ForwardOutcome *outcome(const TransformedPoint &point, const std::string &test, int packing = 0) const;
+  const ForwardOutcome *outcome(const TransformedPoint &point, const std::string &test,
+                                int packing = 0) const;
 
   // Points of packing 0 in the order they were first asked for.
   const std::vector<TransformedPoint> &points() const { return points_; }

@@ -19,7 +19,9 @@ struct Bench {
   GraniteEmulator model;
   ParameterSpace space{study.parameters};
   Evaluator evaluator{study, space, model};
-  TransformedPoint at(double u) const { return space.to_transformed(space.from_unit_cube({u, u, u})); }
+  TransformedPoint at(double u) const {
+    return space.to_transformed(space.from_unit_cube({u, u, u}));
+  }
 };
 
 TEST(Evaluator, GivesTheFiguresOfTheCurves) {
@@ -30,13 +32,15 @@ TEST(Evaluator, GivesTheFiguresOfTheCurves) {
   const auto f = granite_law(x[0], x[1], x[2]);
   const double expected[] = {f.E, f.nu, f.UCS, f.sigma_t};
   for (std::size_t t = 0; t < 4; ++t)
-    EXPECT_NEAR(bench.evaluator.value(point, t).value / expected[t], 1, 1e-9) << bench.study.targets[t].name;
+    EXPECT_NEAR(bench.evaluator.value(point, t).value / expected[t], 1, 1e-9)
+        << bench.study.targets[t].name;
 }
 
 TEST(Evaluator, OneBatchForAllAndNothingTwice) {
   Bench bench;
   const std::vector<TransformedPoint> points{bench.at(0.2), bench.at(0.5), bench.at(0.2)};
-  bench.evaluator.run(points, {0, 1, 2}, "design");  // three targets of one test, two different points
+  bench.evaluator.run(points, {0, 1, 2},
+                      "design");  // three targets of one test, two different points
   EXPECT_EQ(bench.model.batches, 1);
   EXPECT_EQ(bench.model.runs, 2);
   bench.evaluator.run(points, {0, 1, 2, 3}, "design");  // the other test only
@@ -57,6 +61,7 @@ TEST(Evaluator, PackingsAreKeptApartAndOutOfTheLedger) {
   EXPECT_EQ(bench.model.batches, 1);
   EXPECT_EQ(bench.model.runs, 3);
   EXPECT_NE(bench.evaluator.value(point, 2, 0).value, bench.evaluator.value(point, 2, 1).value);
+  bench.evaluator.run({bench.at(0.7)}, {2}, "packings", 1);  // on another packing only
   EXPECT_EQ(bench.evaluator.ledger().size(), 1u);
   EXPECT_EQ(bench.evaluator.ledger()[0].responses.count("UCS"), 1u);
   EXPECT_EQ(bench.evaluator.ledger()[0].responses.count("sigma_t"), 0u);

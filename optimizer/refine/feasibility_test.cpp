@@ -19,7 +19,8 @@ LedgerPoint point(double ucs, double sigma_t) {
 }
 
 Finding about(const std::vector<Finding> &findings, const std::vector<std::string> &targets) {
-  const auto found = std::find_if(findings.begin(), findings.end(), [&](const Finding &f) { return f.targets == targets; });
+  const auto found = std::find_if(findings.begin(), findings.end(),
+                                  [&](const Finding &f) { return f.targets == targets; });
   if (found != findings.end()) return *found;
   ADD_FAILURE() << "no finding about " << targets.front();
   return {};
@@ -27,7 +28,8 @@ Finding about(const std::vector<Finding> &findings, const std::vector<std::strin
 
 TEST(Feasibility, RatioOutsideTheSpanOfAllRunsIsUnreachableThoughEachAloneIsReached) {
   const Study study = testing::granite_study();  // 138.8 and 9.5 MPa, 5 % each
-  const auto findings = judge_feasibility(study, strengths, {point(80, 9), point(100, 11.5), point(145, 17)});
+  const auto findings =
+      judge_feasibility(study, strengths, {point(80, 9), point(100, 11.5), point(145, 17)});
   EXPECT_EQ(about(findings, {"UCS"}).kind, FindingKind::reachable);
   EXPECT_EQ(about(findings, {"sigma_t"}).kind, FindingKind::reachable);
   const auto ratio = about(findings, strengths);
@@ -35,7 +37,8 @@ TEST(Feasibility, RatioOutsideTheSpanOfAllRunsIsUnreachableThoughEachAloneIsReac
   EXPECT_NEAR(ratio.low, 145.0 / 17, 1e-9);
   EXPECT_NEAR(ratio.high, 80.0 / 9, 1e-9);
   EXPECT_EQ(ratio.points, 3);
-  for (const std::string words : {"between 8.53 and 8.89 over all 3 parameter sets", "measured: 14.6", "No parameter set within the bounds",
+  for (const std::string words : {"between 8.53 and 8.89 over all 3 parameter sets",
+                                  "measured: 14.6", "No parameter set within the bounds",
                                   "each alone is within reach", "property of the model"})
     EXPECT_NE(ratio.text.find(words), std::string::npos) << words << " not in: " << ratio.text;
 }
@@ -52,9 +55,11 @@ TEST(Feasibility, TargetOutsideTheSpanIsUnreachableAndSpoilsNoRatio) {
   const Study study = testing::granite_study();
   const auto findings = judge_feasibility(study, strengths, {point(40, 9.5), point(100, 9.8)});
   EXPECT_EQ(about(findings, {"UCS"}).kind, FindingKind::unreachable_target);
-  EXPECT_NE(about(findings, {"UCS"}).text.find("No parameter set within the bounds reached it"), std::string::npos);
-  EXPECT_TRUE(std::none_of(findings.begin(), findings.end(),
-                           [](const Finding &f) { return f.kind == FindingKind::unreachable_ratio; }));
+  EXPECT_NE(about(findings, {"UCS"}).text.find("No parameter set within the bounds reached it"),
+            std::string::npos);
+  EXPECT_TRUE(std::none_of(findings.begin(), findings.end(), [](const Finding &f) {
+    return f.kind == FindingKind::unreachable_ratio;
+  }));
 }
 
 TEST(Feasibility, RatioThatHardlyMovesIsTheReasonThoughATargetIsUnreachableAlone) {
@@ -78,7 +83,8 @@ TEST(Feasibility, PointsWithoutBothFiguresAreNoEvidenceForTheRatio) {
   const Study study = testing::granite_study();
   LedgerPoint half;
   half.responses["UCS"] = 140e6;
-  EXPECT_EQ(about(judge_feasibility(study, strengths, {half, point(140, 10)}), strengths).points, 1);
+  EXPECT_EQ(about(judge_feasibility(study, strengths, {half, point(140, 10)}), strengths).points,
+            1);
   const auto none = judge_feasibility(study, strengths, {half});
   EXPECT_EQ(none.size(), 1u);  // UCS alone
 }

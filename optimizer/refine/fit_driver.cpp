@@ -7,9 +7,9 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "design/latin_hypercube.h"
+#include "refine/fit_plan.h"
 #include "refine/noise_floor.h"
 #include "refine/polish.h"
 #include "refine/propose.h"
@@ -20,54 +20,17 @@ namespace bondlab {
 
 namespace {
 
-constexpr int noise_repeats = 4;
 constexpr int most_starts = 2;
 constexpr double small_gain = 2;  // of the misfit: a step of 1.4 sd of the parameters
-constexpr double small_share = 0.1;  // or this share of a misfit that stays, as where targets exclude each other
+// Or this share of a misfit that stays, as where targets exclude each other.
+constexpr double small_share = 0.1;
 constexpr double apart = 0.2;  // of the bounds: starts nearer to one that failed are not tried
-// What a fit usually takes from its first Jacobian to its last look, for the estimate of what is left.
-constexpr int usual_jacobians = 1, usual_trials = 2, usual_polish = 4;
-
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double better_of(double a, double b) { return std::isnan(a) || b < a ? b : a; }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-TargetIndices indices_of(const Study &study, const std::vector<std::string> &names) {
-  TargetIndices indices;
-  for (const auto &name : names)
-    for (std::size_t i = 0; i < study.targets.size(); ++i)
-      if (study.targets[i].name == name) indices.push_back(i);
-  return indices;
-}
-
-int count_tests(const Study &study, const TargetIndices &targets) {
-  std::set<std::string> tests;
-  for (const std::size_t target : targets) tests.insert(study.targets[target].test);
-  return static_cast<int>(tests.size());
-}
-
-// Expected runs of one fit by phase.
-struct Plan {
-  int design = 0, noise = 0, refine = 0, packings = 0;
-  int all() const { return design + noise + refine + packings; }
-};
-
-Plan plan_of(const Study &study, const FitEntry &entry, bool first) {
-  const TargetIndices fitted = indices_of(study, entry.targets), predicted = indices_of(study, entry.predicted);
-  TargetIndices all = fitted;
-  all.insert(all.end(), predicted.begin(), predicted.end());
-  const int p = static_cast<int>(study.parameters.size());
-  const int tests = count_tests(study, fitted), all_tests = count_tests(study, all);
-  Plan plan;
-  plan.design = all_tests * ((first ? study.options.lhs_points : 0) + 1);
-  plan.noise = first ? tests * noise_repeats : tests * noise_repeats / 2;
-  plan.refine = tests * (usual_jacobians * 2 * p + usual_trials + usual_polish) + (all_tests - tests);
-  plan.packings = all_tests * study.options.packings;
-  return plan;
 }
 
 class Driver {
@@ -99,7 +62,7 @@ class Driver {
   Evaluator evaluator_;
   const FitProgressSink &sink_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::vector<double> noise_;                       // one a target of the study; NaN: not measured
+  std::vector<double> noise_;  // one a target of the study; NaN: not measured
   std::optional<TransformedPoint> noise_centre_;
   int later_fits_ = 0;
 
@@ -120,10 +83,13 @@ void Driver::report(const BatchProgress &batch) {
   const auto counts = evaluator_.counts();
   progress.runs_done = counts.forward + batch.done + batch.failed;
   progress.failed = counts.failed + batch.failed;
-  const int left = std::max(left_in_plan_ - batch.done - batch.failed, batch.total - batch.done - batch.failed) + later_fits_;
+  const int left =
+      std::max(left_in_plan_ - batch.done - batch.failed, batch.total - batch.done - batch.failed) +
+      later_fits_;
   progress.runs_expected = progress.runs_done + left;
   if (!result_.history.empty()) progress.best_misfit = result_.history.back().best_misfit;
-  const int computed = counts.forward - counts.from_store + batch.done + batch.failed - batch.from_store;
+  const int computed =
+      counts.forward - counts.from_store + batch.done + batch.failed - batch.from_store;
   if (computed > 0) progress.seconds_left = left * seconds_since(start_) / computed;
   sink_(progress);
 }
@@ -138,11 +104,13 @@ void Driver::record(const std::string &phase, const MarquardtStep &step) {
   entry.accepted = step.accepted;
   entry.parameters = space_.to_physical(step.point).x;
   entry.note = step.note;
-  entry.best_misfit = better_of(result_.history.empty() ? nan : result_.history.back().best_misfit, step.misfit);
+  entry.best_misfit =
+      better_of(result_.history.empty() ? nan : result_.history.back().best_misfit, step.misfit);
   result_.history.push_back(std::move(entry));
 }
 
-// The noise enters the weights; what was recorded before it was known is judged again, so that one history has one scale.
+// The noise enters the weights; what was recorded before it was known is judged again, so that one
+// history has one scale.
 void Driver::set_weights() {
   for (std::size_t i = 0; i < problem_.targets.size(); ++i) {
     const std::size_t target = problem_.targets[i];
@@ -160,7 +128,8 @@ void Driver::set_weights() {
 void Driver::make_design(const TargetIndices &targets) {
   phase_ = "design";
   std::vector<TransformedPoint> design;
-  for (const auto &u : latin_hypercube(study_.options.lhs_points, static_cast<int>(space_.n()), study_.options.seed))
+  for (const auto &u : latin_hypercube(study_.options.lhs_points, static_cast<int>(space_.n()),
+                                       study_.options.seed))
     design.push_back(space_.to_transformed(space_.from_unit_cube(u)));
   evaluator_.run(design, targets, phase_);
   // All earlier points count: a later fit begins with what the fits before have run.
@@ -185,12 +154,14 @@ void Driver::measure_noise_at(const TransformedPoint &point) {
   for (const std::size_t target : problem_.targets)
     if (std::isnan(noise_[target])) unknown.push_back(target);
   if (unknown.empty()) return;
-  const auto floor = measure_noise(evaluator_, unknown, *noise_centre_, noise_repeats, study_.options.seed);
+  const auto floor =
+      measure_noise(evaluator_, unknown, *noise_centre_, noise_repeats, study_.options.seed);
   for (const std::size_t target : unknown) noise_[target] = floor.sd[target];
   result_.notes.insert(result_.notes.end(), floor.notes.begin(), floor.notes.end());
 }
 
-std::optional<TransformedPoint> Driver::next_start(const std::vector<TransformedPoint> &tried) const {
+std::optional<TransformedPoint> Driver::next_start(
+    const std::vector<TransformedPoint> &tried) const {
   std::optional<TransformedPoint> best;
   double lowest = 0;
   for (const auto &point : evaluator_.points()) {
@@ -225,45 +196,56 @@ MarquardtResult Driver::search() {
                            [this](const MarquardtStep &step) { record(phase_, step); });
     result_.notes.insert(result_.notes.end(), found.notes.begin(), found.notes.end());
     if (!found.converged)
-      result_.notes.push_back(fmt::format("the search from start {} ended without success: {}", attempt + 1, found.ended));
+      result_.notes.push_back(fmt::format("the search from start {} stopped before its goal: {}",
+                                          attempt + 1, found.ended));
     tried.push_back(*start);
     tried.push_back(found.point);
     const bool better = !best || misfit_with_prior(evaluator_, problem_, found.point) <
                                      misfit_with_prior(evaluator_, problem_, best->point);
     if (better) best = std::move(found);
-    // A search that stopped in the noise near a minimum is as good as it gets: settle() looks through the noise.
-    const double enough = std::max(small_gain, small_share * misfit(evaluator_, problem_, best->point));
-    const bool near = best->started && !best->jacobian.any_frozen() && best->stationarity.gain < enough;
+    // A search that stopped in the noise near a minimum is as good as it gets: settle() looks
+    // through the noise.
+    const double enough =
+        std::max(small_gain, small_share * misfit(evaluator_, problem_, best->point));
+    const bool near =
+        best->started && !best->jacobian.any_frozen() && best->stationarity.gain < enough;
     // Another start helps where a search got stuck, not where it only ran out of steps.
-    if (best->converged || near || best->limit_reached || all_met(evaluator_, problem_, best->point)) break;
+    if (best->converged || near || best->limit_reached ||
+        all_met(evaluator_, problem_, best->point))
+      break;
   }
   if (!best) throw FitFailed(fmt::format("fit '{}': no point is left to start from", result_.name));
   return std::move(*best);
 }
 
-// A Jacobian for a point that the search didn't end at: the search's own within its steps, else a new one.
+// A Jacobian for a point that the search didn't end at: the search's own within its steps, else a
+// new one.
 void Driver::move_to(const TransformedPoint &point, MarquardtResult &search) {
   search.point = point;
   bool near = !search.jacobian.any_frozen();
   for (std::size_t k = 0; k < point.z.size(); ++k)
     near = near && std::fabs(point.z[k] - search.jacobian.point.z[k]) <= search.jacobian.steps[k];
   if (!near) {
-    search.jacobian = difference_jacobian(
-        evaluator_, problem_, point,
-        difference_steps(space_, problem_, point, search.jacobian.rows, study_.options.difference_step));
-    result_.notes.insert(result_.notes.end(), search.jacobian.notes.begin(), search.jacobian.notes.end());
+    search.jacobian =
+        difference_jacobian(evaluator_, problem_, point,
+                            difference_steps(space_, problem_, point, search.jacobian.rows,
+                                             study_.options.difference_step));
+    result_.notes.insert(result_.notes.end(), search.jacobian.notes.begin(),
+                         search.jacobian.notes.end());
   }
   hold_at_bounds(evaluator_, problem_, point, search.jacobian);
   search.stationarity = judge_stationarity(evaluator_, problem_, point, search.jacobian);
   search.converged = search.stationarity.stationary;
 }
 
-// Takes the best of all runs as the solution, or the smooth minimum where single runs cannot say what is best.
+// Takes the best of all runs as the solution, or the smooth minimum where single runs cannot say
+// what is best.
 void Driver::settle(MarquardtResult &search) {
   phase_ = "polish";
   const auto step = [this](const MarquardtStep &taken) { record(phase_, taken); };
-  const auto notes = polish(evaluator_, problem_, best_point(evaluator_, problem_).value_or(search.point),
-                            study_.options.seed, step);
+  const auto notes =
+      polish(evaluator_, problem_, best_point(evaluator_, problem_).value_or(search.point),
+             study_.options.seed, step);
   result_.notes.insert(result_.notes.end(), notes.begin(), notes.end());
   const auto best = best_point(evaluator_, problem_).value_or(search.point);
   if (best.z != search.point.z) move_to(best, search);
@@ -272,11 +254,14 @@ void Driver::settle(MarquardtResult &search) {
     const auto smooth = smooth_minimum(evaluator_, problem_, best);
     if (smooth && smooth->z != best.z && (!met || all_met(evaluator_, problem_, *smooth))) {
       move_to(*smooth, search);
-      result_.notes.push_back("single runs scatter, so the parameter set is the minimum of a regression over the runs near "
-                              "the best one; its figures are those of its own run");
+      result_.notes.push_back(
+          "single runs scatter, so the parameter set is the minimum of a regression over the runs "
+          "near "
+          "the best one; its figures are those of its own run");
     }
   }
-  record(phase_, {search.point, misfit(evaluator_, problem_, search.point), true, "taken as the solution"});
+  record(phase_,
+         {search.point, misfit(evaluator_, problem_, search.point), true, "taken as the solution"});
 }
 
 SingleFit Driver::fit(const FitEntry &entry, bool first) {
@@ -296,14 +281,14 @@ SingleFit Driver::fit(const FitEntry &entry, bool first) {
   TargetIndices all = problem_.targets;
   all.insert(all.end(), predicted.begin(), predicted.end());
 
-  const Plan plan = plan_of(study_, entry, first);
+  const FitPlan plan = plan_of(study_, entry, first);
   left_in_plan_ = plan.all();
   make_design(all);
   left_in_plan_ -= plan.design;
   const auto best = best_point(evaluator_, problem_);
   if (!best) {
-    std::string text = fmt::format("fit '{}': none of {} design points gave all of its targets", entry.name,
-                                   evaluator_.points().size());
+    std::string text = fmt::format("fit '{}': none of {} design points gave all of its targets",
+                                   entry.name, evaluator_.points().size());
     if (!evaluator_.points().empty())
       for (const std::size_t target : problem_.targets) {
         const auto value = evaluator_.value(evaluator_.points().front(), target);
@@ -335,24 +320,7 @@ SingleFit Driver::fit(const FitEntry &entry, bool first) {
   return result_;
 }
 
-std::vector<std::string> names_or_all(const Study &study, const std::vector<std::string> &names) {
-  if (!names.empty()) return names;
-  std::vector<std::string> all;
-  for (const auto &entry : study.fits) all.push_back(entry.name);
-  return all;
-}
-
 }  // namespace
-
-int expected_runs(const Study &study, const std::vector<std::string> &names) {
-  int runs = 0;
-  bool first = true;
-  for (const auto &name : names_or_all(study, names)) {
-    runs += plan_of(study, study.fit(name), first).all();
-    first = false;
-  }
-  return runs;
-}
 
 FitResult run_fits(const Study &study, const std::vector<std::string> &names, ForwardModel &model,
                    const FitProgressSink &progress, const FitCheckpoint &checkpoint) {
@@ -366,10 +334,11 @@ FitResult run_fits(const Study &study, const std::vector<std::string> &names, Fo
     result.parameter_units.push_back(parameter.unit);
   }
   Driver driver(study, model, progress);
-  const auto chosen = names_or_all(study, names);
+  const auto chosen = fits_or_all(study, names);
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     int later = 0;
-    for (std::size_t j = i + 1; j < chosen.size(); ++j) later += plan_of(study, study.fit(chosen[j]), false).all();
+    for (std::size_t j = i + 1; j < chosen.size(); ++j)
+      later += plan_of(study, study.fit(chosen[j]), false).all();
     driver.expect(later);
     result.fits.push_back(driver.fit(study.fit(chosen[i]), i == 0));
     result.ledger = driver.evaluator().ledger();

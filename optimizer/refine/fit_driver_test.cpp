@@ -9,6 +9,7 @@
 
 #include "refine/emulator_for_tests.h"
 #include "refine/evaluator.h"
+#include "refine/fit_plan.h"
 
 namespace bondlab {
 namespace {
@@ -26,18 +27,20 @@ void make_noisy(GraniteEmulator &model, std::uint64_t seed) {
 }
 
 const TargetResult &target(const SingleFit &fit, const std::string &name) {
-  return *std::find_if(fit.targets.begin(), fit.targets.end(), [&](const TargetResult &t) { return t.name == name; });
+  return *std::find_if(fit.targets.begin(), fit.targets.end(),
+                       [&](const TargetResult &t) { return t.name == name; });
 }
 
 const Finding *find(const SingleFit &fit, FindingKind kind) {
-  const auto found =
-      std::find_if(fit.findings.begin(), fit.findings.end(), [&](const Finding &f) { return f.kind == kind; });
+  const auto found = std::find_if(fit.findings.begin(), fit.findings.end(),
+                                  [&](const Finding &f) { return f.kind == kind; });
   return found == fit.findings.end() ? nullptr : &*found;
 }
 
 bool noted(const SingleFit &fit, const std::string &words) {
-  return std::any_of(fit.notes.begin(), fit.notes.end(),
-                     [&](const std::string &note) { return note.find(words) != std::string::npos; });
+  return std::any_of(fit.notes.begin(), fit.notes.end(), [&](const std::string &note) {
+    return note.find(words) != std::string::npos;
+  });
 }
 
 TEST(Fit, ThreeTargetsOfGraniteAreMetWithin3PercentUnderNoise) {
@@ -82,8 +85,9 @@ TEST(Fit, FourTargetsOfGraniteAreDeclaredIncompatibleInPlainWords) {
     EXPECT_NEAR(ratio->measured, 138.8 / 9.5, 1e-9);
     EXPECT_LT(ratio->high, 11);
     EXPECT_GE(ratio->points, study.options.lhs_points);
-    for (const std::string words : {"UCS and sigma_t cannot be met together", " of 4 targets of the fit are met", "Not met: UCS is",
-                                    "Not met: sigma_t is", "over all", "measured: 14.6"})
+    for (const std::string words :
+         {"UCS and sigma_t cannot be met together", " of 4 targets of the fit are met",
+          "Not met: UCS is", "Not met: sigma_t is", "over all", "measured: 14.6"})
       EXPECT_NE(fit.verdict.find(words), std::string::npos) << words << " not in: " << fit.verdict;
     EXPECT_NE(find(fit, FindingKind::joint_misfit), nullptr);
     EXPECT_TRUE(noted(fit, "they are too small"));
@@ -110,7 +114,8 @@ TEST(Fit, PredictedTargetIsReportedAndDoesNotSteer) {
   study.targets[3].value *= 2;
   GraniteEmulator other;
   const auto after = run_fits(study, {"main"}, other).fits.front();
-  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(before.parameters[k].value, after.parameters[k].value);
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_EQ(before.parameters[k].value, after.parameters[k].value);
   EXPECT_FALSE(target(before, "sigma_t").in_fit);
   EXPECT_NE(before.verdict.find("Predicted, not fitted: sigma_t"), std::string::npos);
 }
@@ -125,7 +130,8 @@ TEST(Fit, OtherPackingsGiveMeanAndScatter) {
   EXPECT_EQ(fit.packings[2].values.size(), 40u);
   EXPECT_NEAR(fit.packings[2].sd / fit.packings[2].mean, 0.03, 0.01);
   EXPECT_EQ(target(fit, "UCS").packing_sd, fit.packings[2].sd);
-  // The packings' scatter enters the uncertainty of sigma_c: sqrt(5^2 + 3^2) % on UCS instead of 5 %.
+  // The packings' scatter enters the uncertainty of sigma_c: sqrt(5^2 + 3^2) % on UCS instead of 5
+  // %.
   study.options.packings = 0;
   GraniteEmulator single;
   const auto without = run_fits(study, {"main"}, single).fits.front();
@@ -175,7 +181,9 @@ TEST(Fit, HistoryFallsAndProgressCountsUpToTheEnd) {
         EXPECT_GE(progress.runs_expected, progress.runs_done);
         last = progress.runs_done;
       },
-      [&](const FitResult &so_far) { EXPECT_EQ(so_far.fits.size(), static_cast<std::size_t>(++checkpoints)); });
+      [&](const FitResult &so_far) {
+        EXPECT_EQ(so_far.fits.size(), static_cast<std::size_t>(++checkpoints));
+      });
   EXPECT_EQ(last, result.runs.forward);
   EXPECT_EQ(checkpoints, 2);
   for (const auto &fit : result.fits)
@@ -196,12 +204,15 @@ TEST(Fit, OneFailureInAnyRunIsSurvivedAndReported) {
     GraniteEmulator model;
     make_noisy(model, 4);
     int run = 0;
-    model.fail = [&](const ForwardRequest &) { return ++run == failing ? FailureCause::lost_atoms : FailureCause::none; };
+    model.fail = [&](const ForwardRequest &) {
+      return ++run == failing ? FailureCause::lost_atoms : FailureCause::none;
+    };
     const auto fit = run_fits(study, {"main"}, model).fits.front();
     EXPECT_NE(find(fit, FindingKind::failure), nullptr) << "run " << failing;
     EXPECT_EQ(fit.runs.failed, 1);
     survived += fit.all_met;
-    for (const auto &t : fit.targets) EXPECT_TRUE(std::isfinite(t.simulated) || !t.why_missing.empty());
+    for (const auto &t : fit.targets)
+      EXPECT_TRUE(std::isfinite(t.simulated) || !t.why_missing.empty());
   }
   EXPECT_EQ(survived, whole.runs);
 }
@@ -222,7 +233,9 @@ TEST(Fit, BestDesignPointThatFailsMakesTheNextBestTheStart) {
 TEST(Fit, CurvesThatEndTooEarlyCountAsPointsWithoutFigures) {
   Study study = granite_study();
   GraniteEmulator model;
-  model.unfinished = [](const ForwardRequest &request) { return request.variables.at("E_c") > 35e9; };
+  model.unfinished = [](const ForwardRequest &request) {
+    return request.variables.at("E_c") > 35e9;
+  };
   const auto fit = run_fits(study, {"main"}, model).fits.front();
   EXPECT_TRUE(fit.all_met) << fit.verdict;
   EXPECT_EQ(fit.runs.failed, 0);  // the runs themselves were good
@@ -233,7 +246,9 @@ TEST(Fit, TooManyFailuresEndItAndNameTheRuns) {
   study.options.max_failed = 3;
   GraniteEmulator model;
   int run = 0;
-  model.fail = [&](const ForwardRequest &) { return ++run % 3 == 0 ? FailureCause::engine_crash : FailureCause::none; };
+  model.fail = [&](const ForwardRequest &) {
+    return ++run % 3 == 0 ? FailureCause::engine_crash : FailureCause::none;
+  };
   try {
     run_fits(study, {"main"}, model);
     FAIL() << "no error";
@@ -253,7 +268,8 @@ TEST(Fit, NoDesignPointWithAFigureIsAnErrorThatSaysWhy) {
     run_fits(study, {"main"}, model);
     FAIL() << "no error";
   } catch (const FitFailed &error) {
-    EXPECT_NE(std::string(error.what()).find("test_not_finished"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("test_not_finished"), std::string::npos)
+        << error.what();
   }
 }
 
@@ -261,7 +277,8 @@ TEST(Fit, PackingThatFailsIsCountedAndTheRestIsUsed) {
   Study study = granite_study();
   GraniteEmulator model;
   model.fail = [](const ForwardRequest &request) {
-    return request.packing == 2 && request.test == "ucs" ? FailureCause::specimen : FailureCause::none;
+    return request.packing == 2 && request.test == "ucs" ? FailureCause::specimen
+                                                         : FailureCause::none;
   };
   const auto fit = run_fits(study, {"main"}, model).fits.front();
   EXPECT_EQ(fit.packings[2].failed, 1);
@@ -318,7 +335,8 @@ TEST(Fit, OptimumBeyondTheBoundsIsReportedAtTheBound) {
   EXPECT_NE(find(fit, FindingKind::unreachable_target), nullptr) << fit.verdict;
 }
 
-// The reported 95 % intervals hold the truth in 95 % of the cases: data scatter by their sd, runs by their noise.
+// The reported 95 % intervals hold the truth in 95 % of the cases: data scatter by their sd, runs
+// by their noise.
 TEST(FitCoverage, IntervalsHoldThePlantedParameters) {
   constexpr int repeats = 300;
   RandomStream random(42);
@@ -329,7 +347,8 @@ TEST(FitCoverage, IntervalsHoldThePlantedParameters) {
     study.options.packings = 0;
     std::vector<double> truth;
     for (const auto &parameter : study.parameters)
-      truth.push_back(parameter.lower * std::pow(parameter.upper / parameter.lower, random.uniform(0.2, 0.8)));
+      truth.push_back(parameter.lower *
+                      std::pow(parameter.upper / parameter.lower, random.uniform(0.2, 0.8)));
     const auto figures = granite_law(truth[0], truth[1], truth[2]);
     const double values[] = {figures.E, figures.nu, figures.UCS, figures.sigma_t};
     for (std::size_t t = 0; t < 4; ++t) {
@@ -343,14 +362,15 @@ TEST(FitCoverage, IntervalsHoldThePlantedParameters) {
       const auto &parameter = fit.parameters[k];
       if (!parameter.identifiable) continue;
       ++judged[parameter.name];
-      inside[parameter.name] += parameter.interval_lower <= truth[k] && truth[k] <= parameter.interval_upper;
+      inside[parameter.name] +=
+          parameter.interval_lower <= truth[k] && truth[k] <= parameter.interval_upper;
       inside_two_sd[parameter.name] += std::fabs(parameter.value - truth[k]) <= 2 * parameter.sd;
     }
   }
   for (const auto &entry : judged) {
     const double n = entry.second;
     EXPECT_GE(n, 0.99 * repeats) << entry.first;
-    EXPECT_NEAR(inside[entry.first] / n, 0.95, 0.03) << entry.first;         // 2.4 sd of the binomial
+    EXPECT_NEAR(inside[entry.first] / n, 0.95, 0.03) << entry.first;  // 2.4 sd of the binomial
     EXPECT_NEAR(inside_two_sd[entry.first] / n, 0.95, 0.03) << entry.first;
   }
 }

@@ -18,7 +18,9 @@ Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 }  // namespace
 
-bool Jacobian::any_frozen() const { return std::find(frozen.begin(), frozen.end(), true) != frozen.end(); }
+bool Jacobian::any_frozen() const {
+  return std::find(frozen.begin(), frozen.end(), true) != frozen.end();
+}
 
 std::vector<double> difference_steps(const ParameterSpace &space, const FitProblem &problem,
                                      const TransformedPoint &point, const Eigen::MatrixXd &slopes,
@@ -45,16 +47,16 @@ Eigen::MatrixXd regression_slopes(const Evaluator &evaluator, const FitProblem &
   for (std::size_t i = 0; i < problem.targets.size(); ++i) {
     std::vector<double> values;
     for (const auto &at : points) values.push_back(evaluator.value(at, problem.targets[i]).value);
-    const auto model =
-        ResponseModel::fit(evaluator.space(), points, values, std::vector<double>(points.size(), 1.0));
+    const auto model = ResponseModel::fit(evaluator.space(), points, values,
+                                          std::vector<double>(points.size(), 1.0));
     if (!model) return {};
     slopes.row(index(i)) = model->gradient(point).transpose() / problem.sd[i];
   }
   return slopes;
 }
 
-void hold_at_bounds(const Evaluator &evaluator, const FitProblem &problem, const TransformedPoint &point,
-                    Jacobian &jacobian) {
+void hold_at_bounds(const Evaluator &evaluator, const FitProblem &problem,
+                    const TransformedPoint &point, Jacobian &jacobian) {
   const auto &space = evaluator.space();
   jacobian.held.assign(space.n(), false);
   const auto rows = standardised(evaluator, problem, point);
@@ -62,13 +64,15 @@ void hold_at_bounds(const Evaluator &evaluator, const FitProblem &problem, const
   const auto physical = space.to_physical(point);
   for (std::size_t k = 0; k < space.n(); ++k) {
     const BoundSide side = space.at_bound(k, physical.x[k], bound_fraction);
-    const double gradient = jacobian.rows.col(index(k)).dot(*rows);  // of the data alone, the prior always pulls inwards
-    jacobian.held[k] = (side == BoundSide::lower && gradient > 0) || (side == BoundSide::upper && gradient < 0);
+    const double gradient = jacobian.rows.col(index(k)).dot(
+        *rows);  // of the data alone, the prior always pulls inwards
+    jacobian.held[k] =
+        (side == BoundSide::lower && gradient > 0) || (side == BoundSide::upper && gradient < 0);
   }
 }
 
-Jacobian difference_jacobian(Evaluator &evaluator, const FitProblem &problem, const TransformedPoint &point,
-                             const std::vector<double> &steps) {
+Jacobian difference_jacobian(Evaluator &evaluator, const FitProblem &problem,
+                             const TransformedPoint &point, const std::vector<double> &steps) {
   const auto &space = evaluator.space();
   std::vector<TransformedPoint> above(space.n(), point), below(space.n(), point), batch;
   for (std::size_t k = 0; k < space.n(); ++k) {
@@ -108,17 +112,20 @@ Jacobian difference_jacobian(Evaluator &evaluator, const FitProblem &problem, co
         jacobian.frozen[k] = true;
       }
       jacobian.rows(index(i), index(k)) = slope / problem.sd[i];
-      jacobian.noise_sd(index(i), index(k)) = std::sqrt(2.0) * problem.noise[i] / (spread * problem.sd[i]);
+      jacobian.noise_sd(index(i), index(k)) =
+          std::sqrt(2.0) * problem.noise[i] / (spread * problem.sd[i]);
     }
     if (jacobian.frozen[k]) {
       jacobian.rows.col(index(k)).setZero();
       jacobian.noise_sd.col(index(k)).setZero();
-      jacobian.notes.push_back(fmt::format("{} was held where it was for one step: the runs on both sides of it gave "
-                                           "no figure ({})",
-                                           space.names()[k], why));
+      jacobian.notes.push_back(
+          fmt::format("{} was held where it was for one step: the runs on both sides of it gave "
+                      "no figure ({})",
+                      space.names()[k], why));
     } else if (one_sided) {
-      jacobian.notes.push_back(fmt::format("the derivative by {} is one-sided: a run beside it gave no figure ({})",
-                                           space.names()[k], why));
+      jacobian.notes.push_back(
+          fmt::format("the derivative by {} is one-sided: a run beside it gave no figure ({})",
+                      space.names()[k], why));
     }
   }
   hold_at_bounds(evaluator, problem, point, jacobian);

@@ -32,7 +32,8 @@ struct Bench {
   // Closed form of the standardised derivative of UCS by sigma_c.
   double slope_ucs_sigma() const {
     const auto x = space.to_physical(point).x;
-    return 0.849 * granite_law(x[0], x[1], x[2]).UCS / x[2] * space.dx_dz(2, point.z[2]) / problem.sd[2];
+    return 0.849 * granite_law(x[0], x[1], x[2]).UCS / x[2] * space.dx_dz(2, point.z[2]) /
+           problem.sd[2];
   }
   std::vector<double> steps(const Eigen::MatrixXd &slopes = {}, double relative = 0.03) const {
     return difference_steps(space, problem, point, slopes, relative);
@@ -79,7 +80,8 @@ TEST(Jacobian, StepGrowsWithTheCubeRootOfTheNoise) {
   EXPECT_EQ(bench.steps(slopes, 0.0)[2], largest_z_step);
 }
 
-// The reason for the floor: with a noise of 2 % a step of 0.1 % leaves nothing of the slope, the balanced step 85 % of it.
+// The reason for the floor: with a noise of 2 % a step of 0.1 % leaves nothing of the slope, the
+// balanced step 85 % of it.
 TEST(Jacobian, BalancedStepKeepsTheSlopeThatASmallOneDrowns) {
   int good_small = 0, good_balanced = 0;
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
@@ -116,10 +118,12 @@ TEST(Jacobian, FailedSideLeavesAOneSidedColumnFailedSidesAFrozenOne) {
   bench.evaluator.run({bench.point}, bench.problem.targets, "test");
   const auto x = bench.space.to_physical(bench.point).x;
   bench.model.fail = [&](const ForwardRequest &request) {
-    const bool above = request.variables.at("sigma_c") > x[2], moved_k = request.variables.at("kn_ks") != x[1];
+    const bool above = request.variables.at("sigma_c") > x[2],
+               moved_k = request.variables.at("kn_ks") != x[1];
     return above || moved_k ? FailureCause::timeout : FailureCause::none;
   };
-  const auto jacobian = difference_jacobian(bench.evaluator, bench.problem, bench.point, bench.steps());
+  const auto jacobian =
+      difference_jacobian(bench.evaluator, bench.problem, bench.point, bench.steps());
   EXPECT_FALSE(jacobian.frozen[0]);
   EXPECT_TRUE(jacobian.frozen[1]);
   EXPECT_FALSE(jacobian.frozen[2]);

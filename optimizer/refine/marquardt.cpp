@@ -14,18 +14,26 @@ namespace bondlab {
 namespace {
 
 constexpr int rejections_in_a_row = 3;
-// A first step damped by 1 %: nearly Gauss-Newton, and short enough after a few rejections (the radius falls by 2, 4, 8).
+// A first step damped by 1 %: nearly Gauss-Newton, and short enough after a few rejections (the
+// radius falls by 2, 4, 8).
 constexpr double first_radius = 100, least_first_radius = 0.1;
-// In z, from the middle of the bounds to 82 % of them; beyond it a linear forecast through the logit means nothing.
+// In z, from the middle of the bounds to 82 % of them; beyond it a linear forecast through the
+// logit means nothing.
 constexpr double longest_first_step = 1.5;
-// Rejected steps end a search when what a step promises is of the size of the noise; else they only shorten it.
+// Rejected steps end a search when what a step promises is of the size of the noise; else they only
+// shorten it.
 constexpr double gain_worth_more_steps = 4;
 
 // What the cost function and the callback share during one search.
 struct Search {
   Search(Evaluator &runs, const FitProblem &fit, const MarquardtOptions &settings,
          const std::function<void(const MarquardtStep &)> &sink, MarquardtResult &out)
-      : evaluator(runs), problem(fit), options(settings), on_step(sink), result(out), keep_allowed(settings.keep_jacobian) {}
+      : evaluator(runs),
+        problem(fit),
+        options(settings),
+        on_step(sink),
+        result(out),
+        keep_allowed(settings.keep_jacobian) {}
 
   Evaluator &evaluator;
   const FitProblem &problem;
@@ -37,7 +45,8 @@ struct Search {
   bool trial_pending = false, trial_failed = false;
   std::string trial_note;
   int rejected = 0;
-  std::exception_ptr stopped;         // thrown after Ceres has returned: its frames need not know exceptions
+  std::exception_ptr
+      stopped;  // thrown after Ceres has returned: its frames need not know exceptions
 };
 
 bool within_half_a_step(const TransformedPoint &point, const Jacobian &jacobian) {
@@ -61,12 +70,14 @@ void make_jacobian(Search &search, const TransformedPoint &point) {
   const auto steps = difference_steps(search.evaluator.space(), search.problem, point, slopes,
                                       search.options.relative_step);
   result.jacobian = difference_jacobian(search.evaluator, search.problem, point, steps);
-  result.notes.insert(result.notes.end(), result.jacobian.notes.begin(), result.jacobian.notes.end());
+  result.notes.insert(result.notes.end(), result.jacobian.notes.begin(),
+                      result.jacobian.notes.end());
   ++result.jacobians;
   search.have_jacobian = true;
 }
 
-// Derivatives of targets and prior. A parameter that is frozen or held has none: not even the prior moves it.
+// Derivatives of targets and prior. A parameter that is frozen or held has none: not even the prior
+// moves it.
 Eigen::MatrixXd stacked_rows(const Search &search) {
   const auto &jacobian = search.result.jacobian;
   const Eigen::Index n = jacobian.rows.rows(), p = jacobian.rows.cols();
@@ -87,7 +98,8 @@ class RunCost : public ceres::CostFunction {
     mutable_parameter_block_sizes()->push_back(p);
   }
 
-  bool Evaluate(double const *const *parameters, double *residuals, double **jacobians) const override {
+  bool Evaluate(double const *const *parameters, double *residuals,
+                double **jacobians) const override {
     double *jacobian = jacobians ? jacobians[0] : nullptr;
     try {
       if (!search_.stopped) return evaluate(parameters[0], residuals, jacobian);
@@ -95,7 +107,8 @@ class RunCost : public ceres::CostFunction {
       search_.stopped = std::current_exception();
     }
     if (!jacobian) return false;  // a rejected step
-    // Ceres logs a failed Jacobian to stderr, and a library is silent: it gets zeros, and the callback ends the search.
+    // Ceres logs a failed Jacobian to stderr, and a library is silent: it gets zeros, and the
+    // callback ends the search.
     std::fill_n(residuals, num_residuals(), 0.0);
     std::fill_n(jacobian, num_residuals() * parameter_block_sizes().front(), 0.0);
     return true;
@@ -147,21 +160,23 @@ class StepWatch : public ceres::IterationCallback {
     if (first || summary.step_is_successful) {
       result.point.z = z_;
       search_.rejected = 0;
-      result.stationarity = judge_stationarity(search_.evaluator, search_.problem, result.point, result.jacobian,
-                                               search_.options.immaterial);
+      result.stationarity = judge_stationarity(search_.evaluator, search_.problem, result.point,
+                                               result.jacobian, search_.options.immaterial);
       if (result.stationarity.stationary) {
         result.converged = true;
         result.ended = "the gradient is zero within the noise of the responses";
         return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
       }
     } else if (++search_.rejected >= rejections_in_a_row &&
-               (search_.kept || result.stationarity.gain <= gain_worth_more_steps * result.stationarity.noise_gain)) {
+               (search_.kept || result.stationarity.gain <=
+                                    gain_worth_more_steps * result.stationarity.noise_gain)) {
       result.ended = fmt::format("{} steps in a row found nothing better", search_.rejected);
       return ceres::SOLVER_ABORT;
     }
     if (result.trials >= search_.options.max_iterations) {
       result.limit_reached = true;
-      result.ended = fmt::format("the limit of {} steps was reached", search_.options.max_iterations);
+      result.ended =
+          fmt::format("the limit of {} steps was reached", search_.options.max_iterations);
       return ceres::SOLVER_ABORT;
     }
     return ceres::SOLVER_CONTINUE;
@@ -186,8 +201,9 @@ class StepWatch : public ceres::IterationCallback {
   const std::vector<double> &z_;
 };
 
-// Radius of the trust region whose first Levenberg-Marquardt step is not longer than a linear forecast is good for. Near
-// a bound the logit is flat and an undamped step would leap to the other bound.
+// Radius of the trust region whose first Levenberg-Marquardt step is not longer than a linear
+// forecast is good for. Near a bound the logit is flat and an undamped step would leap to the other
+// bound.
 double first_trust_radius(const Search &search, const TransformedPoint &start) {
   const auto rows = standardised(search.evaluator, search.problem, start);
   const Eigen::MatrixXd a = stacked_rows(search);
@@ -199,7 +215,8 @@ double first_trust_radius(const Search &search, const TransformedPoint &start) {
   for (; radius > least_first_radius; radius /= 2) {
     Eigen::MatrixXd damped = hessian;
     damped.diagonal() *= 1 + 1 / radius;
-    damped.diagonal().array() += std::numeric_limits<double>::min();  // parameters that don't move have zeros here
+    damped.diagonal().array() +=
+        std::numeric_limits<double>::min();  // parameters that don't move have zeros here
     if (damped.ldlt().solve(gradient).cwiseAbs().maxCoeff() <= longest_first_step) break;
   }
   return radius;
@@ -218,7 +235,8 @@ void solve_once(Search &search, std::vector<double> &z) {
   options.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
   options.linear_solver_type = ceres::DENSE_QR;
   options.initial_trust_region_radius = first_trust_radius(search, TransformedPoint{z});
-  options.max_num_iterations = search.options.max_iterations + rejections_in_a_row;  // our own count ends it
+  options.max_num_iterations =
+      search.options.max_iterations + rejections_in_a_row;  // our own count ends it
   options.function_tolerance = 0;  // only judge_stationarity() may call a point converged
   options.gradient_tolerance = 0;
   options.parameter_tolerance = 1e-9;
@@ -235,8 +253,8 @@ void solve_once(Search &search, std::vector<double> &z) {
 
 }  // namespace
 
-MarquardtResult marquardt(Evaluator &evaluator, const FitProblem &problem, const TransformedPoint &start,
-                          const MarquardtOptions &options,
+MarquardtResult marquardt(Evaluator &evaluator, const FitProblem &problem,
+                          const TransformedPoint &start, const MarquardtOptions &options,
                           const std::function<void(const MarquardtStep &)> &on_step) {
   MarquardtResult result;
   result.point = start;
@@ -252,13 +270,15 @@ MarquardtResult marquardt(Evaluator &evaluator, const FitProblem &problem, const
     search.rejected = 0;
     result.ended.clear();
     solve_once(search, z);
-    // Rejections under a kept Jacobian may be its fault: once more with one made at the point itself.
+    // Rejections under a kept Jacobian may be its fault: once more with one made at the point
+    // itself.
     const bool again = !result.converged && search.kept && result.trials < options.max_iterations;
     if (!again) break;
     search.keep_allowed = false;
   }
   if (!result.converged)
-    result.ended += fmt::format("; a further step promises to lower the misfit by {:.3g}", result.stationarity.gain);
+    result.ended += fmt::format("; a further step promises to lower the misfit by {:.3g}",
+                                result.stationarity.gain);
   return result;
 }
 

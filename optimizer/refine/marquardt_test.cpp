@@ -18,8 +18,10 @@ using testing::MacroFigures;
 // Curved in every direction, so that neither a plane nor a power law is exact.
 MacroFigures curved_law(const std::map<std::string, double> &v) {
   const double e = v.at("E_c") / 1e9, k = v.at("kn_ks"), s = v.at("sigma_c") / 1e6;
-  return {3.2e9 * e / (1 + 0.12 * std::sqrt(e) * std::pow(k, 0.4)), 0.42 * (1 - std::exp(-0.42 * k)) * std::pow(e / 25, 0.05),
-          9e6 * s / (1 + 0.05 * s) * std::pow(k, -0.3) * std::pow(e, 0.12), 0.6e6 * s / (1 + 0.004 * s) * std::pow(k, -0.25)};
+  return {3.2e9 * e / (1 + 0.12 * std::sqrt(e) * std::pow(k, 0.4)),
+          0.42 * (1 - std::exp(-0.42 * k)) * std::pow(e / 25, 0.05),
+          9e6 * s / (1 + 0.05 * s) * std::pow(k, -0.3) * std::pow(e, 0.12),
+          0.6e6 * s / (1 + 0.004 * s) * std::pow(k, -0.25)};
 }
 
 // One problem with everything it needs, kept together because the parts refer to each other.
@@ -39,7 +41,8 @@ struct Bench {
     problem.sd.clear();
     problem.noise.clear();
     for (const std::size_t i : problem.targets) {
-      const double noise = (i < 2 ? model.noise_elastic : model.noise_strength) * study.targets[i].value;
+      const double noise =
+          (i < 2 ? model.noise_elastic : model.noise_strength) * study.targets[i].value;
       problem.noise.push_back(noise);
       problem.sd.push_back(combined_sd(study.targets[i].sd, noise));
     }
@@ -55,11 +58,14 @@ struct Bench {
     }
     weigh();
   }
-  TransformedPoint at(const std::vector<double> &u) const { return space.to_transformed(space.from_unit_cube(u)); }
+  TransformedPoint at(const std::vector<double> &u) const {
+    return space.to_transformed(space.from_unit_cube(u));
+  }
 };
 
 TransformedPoint random_start(const Bench &bench, RandomStream &random) {
-  return bench.at({random.uniform(0.03, 0.97), random.uniform(0.03, 0.97), random.uniform(0.03, 0.97)});
+  return bench.at(
+      {random.uniform(0.03, 0.97), random.uniform(0.03, 0.97), random.uniform(0.03, 0.97)});
 }
 
 // The same sum of squares in closed form, for Ceres with its own derivatives.
@@ -104,13 +110,15 @@ TEST(Marquardt, ReachesTheReferenceMinimumWithFewRunsAndNoneTwice) {
     options.relative_step = 0.02;
     options.immaterial = {2e-4, 0};
     options.keep_jacobian = false;
-    const auto found = marquardt(bench.evaluator, bench.problem, random_start(bench, random), options);
+    const auto found =
+        marquardt(bench.evaluator, bench.problem, random_start(bench, random), options);
     ASSERT_TRUE(found.converged) << found.ended;
     const double reference = reference_cost(bench);
     const double cost = misfit_with_prior(bench.evaluator, bench.problem, found.point);
     worst = std::max(worst, std::fabs(cost / reference - 1));
     EXPECT_EQ(bench.model.repeated, 0);
-    // start + trial points + one Jacobian at the start and after each accepted step; two tests a point
+    // start + trial points + one Jacobian at the start and after each accepted step; two tests a
+    // point
     const int needed = 1 + found.trials + 2 * 3 * (1 + found.accepted);
     EXPECT_LE(bench.model.runs, 2 * 1.15 * needed);
     EXPECT_EQ(bench.model.largest_batch, 2 * 6);
@@ -129,7 +137,8 @@ TEST(Marquardt, KeepingTheJacobianSavesRunsAndChangesNoResult) {
       options.max_iterations = 30;
       options.keep_jacobian = keep;
       options.relative_step = 0.15;  // as wide as noise makes it
-      const auto found = marquardt(bench.evaluator, bench.problem, random_start(bench, random), options);
+      const auto found =
+          marquardt(bench.evaluator, bench.problem, random_start(bench, random), options);
       EXPECT_TRUE(found.converged) << found.ended;
       EXPECT_LT(misfit(bench.evaluator, bench.problem, found.point), 0.2);
       (keep ? kept : fresh) += bench.model.runs;
@@ -138,7 +147,8 @@ TEST(Marquardt, KeepingTheJacobianSavesRunsAndChangesNoResult) {
   EXPECT_LT(kept, fresh);
 }
 
-// Noise of 1e-3 of the signal, 200 starts: nearly all end right, and none claims a success that is not there.
+// Noise of 1e-3 of the signal, 200 starts: nearly all end right, and none claims a success that is
+// not there.
 TEST(Marquardt, UnderNoiseMostStartsEndRightAndNoneClaimsFalsely) {
   RandomStream random(5);
   int right = 0, false_claims = 0;
@@ -150,8 +160,10 @@ TEST(Marquardt, UnderNoiseMostStartsEndRightAndNoneClaimsFalsely) {
     bench.plant({0.4, 0.5, 0.6});
     MarquardtOptions options;
     options.max_iterations = 30;
-    const auto found = marquardt(bench.evaluator, bench.problem, random_start(bench, random), options);
-    // Right: no target is off by more than a third of its sd (the prior alone moves them by up to 0.05 sd).
+    const auto found =
+        marquardt(bench.evaluator, bench.problem, random_start(bench, random), options);
+    // Right: no target is off by more than a third of its sd (the prior alone moves them by up to
+    // 0.05 sd).
     const auto rows = standardised(bench.evaluator, bench.problem, found.point);
     const bool good = rows && rows->cwiseAbs().maxCoeff() < 0.33;
     right += good;
@@ -174,10 +186,13 @@ TEST(Marquardt, UnderStrengthNoiseOf2PercentNoneClaimsFalsely) {
     bench.plant({0.4, 0.5, 0.6});
     MarquardtOptions options;
     options.max_iterations = 30;
-    const auto found = marquardt(bench.evaluator, bench.problem, random_start(bench, random), options);
+    const auto found =
+        marquardt(bench.evaluator, bench.problem, random_start(bench, random), options);
     const auto rows = standardised(bench.evaluator, bench.problem, found.point);
-    // Strength: three sd of its noise (2 % of 5.4 %) are 1.1; moduli as above, and what the noise allows as gain.
-    const bool good = rows && std::fabs((*rows)(2)) < 1.3 && rows->head(2).cwiseAbs().maxCoeff() < 0.6;
+    // Strength: three sd of its noise (2 % of 5.4 %) are 1.1; moduli as above, and what the noise
+    // allows as gain.
+    const bool good =
+        rows && std::fabs((*rows)(2)) < 1.3 && rows->head(2).cwiseAbs().maxCoeff() < 0.6;
     right += good;
     false_claims += found.converged && !good;
   }
@@ -191,7 +206,8 @@ TEST(Marquardt, WrongBranchesAreNotCalledConverged) {
   bench.plant({0.8, 0.2, 0.9});
   MarquardtOptions options;
   options.max_iterations = 1;
-  const auto found = marquardt(bench.evaluator, bench.problem, bench.at({0.03, 0.97, 0.03}), options);
+  const auto found =
+      marquardt(bench.evaluator, bench.problem, bench.at({0.03, 0.97, 0.03}), options);
   EXPECT_FALSE(found.converged);
   EXPECT_NE(found.ended.find("limit of 1 steps"), std::string::npos);
 }
@@ -229,7 +245,9 @@ TEST(Marquardt, FailureBesideThePointMakesAOneSidedDerivative) {
   bench.study.options.max_failed = 5;
   bench.plant({0.45, 0.5, 0.55});
   int runs = 0;
-  bench.model.fail = [&](const ForwardRequest &) { return ++runs == 2 ? FailureCause::timeout : FailureCause::none; };
+  bench.model.fail = [&](const ForwardRequest &) {
+    return ++runs == 2 ? FailureCause::timeout : FailureCause::none;
+  };
   MarquardtOptions options;
   options.max_iterations = 20;
   const auto found = marquardt(bench.evaluator, bench.problem, bench.at({0.2, 0.8, 0.3}), options);
@@ -252,14 +270,17 @@ TEST(Marquardt, ParameterWithoutADerivativeIsHeldAndNoSuccessIsClaimed) {
   EXPECT_FALSE(found.converged);
   EXPECT_TRUE(found.jacobian.frozen[1]);
   EXPECT_EQ(bench.space.to_physical(found.point).x[1], k);
-  EXPECT_LT(misfit(bench.evaluator, bench.problem, found.point), misfit(bench.evaluator, bench.problem, start));
+  EXPECT_LT(misfit(bench.evaluator, bench.problem, found.point),
+            misfit(bench.evaluator, bench.problem, start));
 }
 
 TEST(Marquardt, TooManyFailuresEndItThroughTheSolver) {
   Bench bench;
   bench.study.options.max_failed = 2;
   int runs = 0;
-  bench.model.fail = [&](const ForwardRequest &) { return ++runs > 1 ? FailureCause::timeout : FailureCause::none; };
+  bench.model.fail = [&](const ForwardRequest &) {
+    return ++runs > 1 ? FailureCause::timeout : FailureCause::none;
+  };
   EXPECT_THROW(marquardt(bench.evaluator, bench.problem, bench.at({0.2, 0.8, 0.3}), {}), FitFailed);
 }
 

@@ -19,7 +19,8 @@ constexpr double largest_z_change = 0.2;  // near a bound a relative change woul
 
 }  // namespace
 
-std::vector<TransformedPoint> noise_points(const ParameterSpace &space, const TransformedPoint &centre, double wiggle,
+std::vector<TransformedPoint> noise_points(const ParameterSpace &space,
+                                           const TransformedPoint &centre, double wiggle,
                                            int repeats, std::uint64_t seed) {
   RandomStream random(seed, noise_stream);
   const auto physical = space.to_physical(centre);
@@ -35,8 +36,8 @@ std::vector<TransformedPoint> noise_points(const ParameterSpace &space, const Tr
   return points;
 }
 
-NoiseFloor measure_noise(Evaluator &evaluator, const TargetIndices &targets, const TransformedPoint &centre,
-                         int repeats, std::uint64_t seed) {
+NoiseFloor measure_noise(Evaluator &evaluator, const TargetIndices &targets,
+                         const TransformedPoint &centre, int repeats, std::uint64_t seed) {
   const auto &space = evaluator.space();
   auto points = noise_points(space, centre, noise_wiggle, repeats, seed);
   evaluator.run(points, targets, "noise");
@@ -46,8 +47,10 @@ NoiseFloor measure_noise(Evaluator &evaluator, const TargetIndices &targets, con
   floor.sd.assign(evaluator.study().targets.size(), std::numeric_limits<double>::quiet_NaN());
   for (const std::size_t target : targets) {
     std::vector<double> all;
-    for (const auto &point : evaluator.points()) all.push_back(evaluator.value(point, target).value);
-    const auto model = ResponseModel::fit(space, evaluator.points(), all, std::vector<double>(all.size(), 1.0));
+    for (const auto &point : evaluator.points())
+      all.push_back(evaluator.value(point, target).value);
+    const auto model =
+        ResponseModel::fit(space, evaluator.points(), all, std::vector<double>(all.size(), 1.0));
 
     std::vector<double> left;  // figures with the explained part taken off
     for (const auto &point : points) {
@@ -57,15 +60,17 @@ NoiseFloor measure_noise(Evaluator &evaluator, const TargetIndices &targets, con
     }
     const std::string &name = evaluator.study().targets[target].name;
     if (left.size() < 3) {
-      floor.notes.push_back(fmt::format("the noise of {} is not known: {} of {} repeats gave a figure", name,
-                                        left.size(), points.size()));
+      floor.notes.push_back(
+          fmt::format("the noise of {} is not known: {} of {} repeats gave a figure", name,
+                      left.size(), points.size()));
       continue;
     }
     double mean = 0, sum = 0;
     for (const double figure : left) mean += figure / static_cast<double>(left.size());
     for (const double figure : left) sum += (figure - mean) * (figure - mean);
     const double measured = evaluator.study().targets[target].value;
-    // Scatter of strengths goes with the strength: what is wanted is the noise where the fit is to arrive.
+    // Scatter of strengths goes with the strength: what is wanted is the noise where the fit is to
+    // arrive.
     const double scale = mean * measured > 0 ? measured / mean : 1.0;
     floor.sd[target] = scale * std::sqrt(sum / static_cast<double>(left.size() - 1));
   }

@@ -23,7 +23,8 @@ struct Bench {
   // With a design run before, as in a fit, so that slopes are known.
   NoiseFloor measure(int repeats, const std::vector<double> &u = {0.4, 0.5, 0.6}) {
     std::vector<TransformedPoint> design;
-    for (const auto &v : latin_hypercube(12, 3, 1)) design.push_back(space.to_transformed(space.from_unit_cube(v)));
+    for (const auto &v : latin_hypercube(12, 3, 1))
+      design.push_back(space.to_transformed(space.from_unit_cube(v)));
     const auto centre = space.to_transformed(space.from_unit_cube(u));
     design.push_back(centre);
     evaluator.run(design, {0, 1, 2, 3}, "design");
@@ -39,7 +40,8 @@ TEST(NoiseFloor, FindsThePlantedNoise) {
   const double planted[] = {1e-3, 1e-3, 0.02, 0.02};
   for (std::size_t t = 0; t < 4; ++t) {
     const double relative = floor.sd[t] / bench.study.targets[t].value;
-    EXPECT_NEAR(relative / planted[t], 1, 0.25) << bench.study.targets[t].name;  // 3 sd of a sd from 80 repeats
+    EXPECT_NEAR(relative / planted[t], 1, 0.25)
+        << bench.study.targets[t].name;  // 3 sd of a sd from 80 repeats
   }
   EXPECT_TRUE(floor.notes.empty());
 }
@@ -51,7 +53,8 @@ TEST(NoiseFloor, SmoothModelHasNoneThoughTheParametersAreMoved) {
 }
 
 TEST(NoiseFloor, IsForAFigureOfTheMeasuredSize) {
-  // Twice the measured strength at the centre, the same share of noise: the sd is that of the measured strength.
+  // Twice the measured strength at the centre, the same share of noise: the sd is that of the
+  // measured strength.
   Bench bench;
   bench.model.noise_strength = 0.02;
   const auto floor = bench.measure(80, {0.4, 0.5, 0.95});

@@ -14,8 +14,10 @@ namespace bondlab {
 namespace {
 
 constexpr int rounds = 3, neighbours = 3;
-constexpr double wiggle = 0.006;  // enough to turn a crack now and then, a fifth of what counts as met
-constexpr double reach = 0.2;  // of the bounds: about the width of the derivatives' steps in a noisy study
+constexpr double wiggle =
+    0.006;  // enough to turn a crack now and then, a fifth of what counts as met
+constexpr double reach =
+    0.2;  // of the bounds: about the width of the derivatives' steps in a noisy study
 
 }  // namespace
 
@@ -25,15 +27,17 @@ double target_tolerance(const Target &target) {
 }
 
 std::string tolerance_in_words() {
-  return fmt::format("a target is met when the simulated figure lies within {:.0f} % of the measured one",
-                     100 * relative_tolerance);
+  return fmt::format(
+      "a target is met when the simulated figure lies within {:.0f} % of the measured one",
+      100 * relative_tolerance);
 }
 
 bool all_met(const Evaluator &evaluator, const FitProblem &problem, const TransformedPoint &point) {
   for (const std::size_t index : problem.targets) {
     const auto &target = evaluator.study().targets[index];
     const auto figure = evaluator.value(point, index);
-    if (!figure.had() || std::fabs(figure.value - target.value) > target_tolerance(target)) return false;
+    if (!figure.had() || std::fabs(figure.value - target.value) > target_tolerance(target))
+      return false;
   }
   return true;
 }
@@ -61,7 +65,8 @@ std::optional<TransformedPoint> smooth_minimum(Evaluator &evaluator, const FitPr
   if (!proposal) return std::nullopt;
   evaluator.run({proposal->point}, problem.targets, "polish");
   const auto rows = standardised(evaluator, problem, best);
-  const double gained = misfit_with_prior(evaluator, problem, proposal->point) - misfit_with_prior(evaluator, problem, best);
+  const double gained = misfit_with_prior(evaluator, problem, proposal->point) -
+                        misfit_with_prior(evaluator, problem, best);
   if (!rows || std::isnan(gained)) return std::nullopt;
   double variance = 0;  // of a misfit: each row's square has the variance (2 r f)^2 + 2 f^4
   for (std::size_t i = 0; i < problem.targets.size(); ++i) {
@@ -72,8 +77,9 @@ std::optional<TransformedPoint> smooth_minimum(Evaluator &evaluator, const FitPr
   return proposal->point;
 }
 
-std::vector<std::string> polish(Evaluator &evaluator, const FitProblem &problem, const TransformedPoint &best,
-                                std::uint64_t seed, const std::function<void(const MarquardtStep &)> &on_step) {
+std::vector<std::string> polish(Evaluator &evaluator, const FitProblem &problem,
+                                const TransformedPoint &best, std::uint64_t seed,
+                                const std::function<void(const MarquardtStep &)> &on_step) {
   std::vector<std::string> notes;
   TransformedPoint centre = best;
   int tried = 0;
@@ -86,13 +92,16 @@ std::vector<std::string> polish(Evaluator &evaluator, const FitProblem &problem,
     bool hopeless = false;
     for (std::size_t i = 0; i < problem.targets.size(); ++i) {
       const auto &target = evaluator.study().targets[problem.targets[i]];
-      hopeless = hopeless || std::fabs(proposal->standardised(static_cast<Eigen::Index>(i))) * problem.sd[i] >
-                                 target_tolerance(target);
+      hopeless = hopeless ||
+                 std::fabs(proposal->standardised(static_cast<Eigen::Index>(i))) * problem.sd[i] >
+                     target_tolerance(target);
     }
     if (hopeless) {
       if (tried == 0)
-        notes.push_back("a regression over the runs near the best point says that no set there meets all targets: "
-                        "no last look was taken");
+        notes.push_back(
+            "a regression over the runs near the best point says that no set there meets all "
+            "targets: "
+            "no last look was taken");
       break;
     }
     auto points = noise_points(evaluator.space(), proposal->point, wiggle, neighbours,
@@ -101,13 +110,15 @@ std::vector<std::string> polish(Evaluator &evaluator, const FitProblem &problem,
     evaluator.run(points, problem.targets, "polish");
     tried += static_cast<int>(points.size());
     if (on_step)
-      for (const auto &point : points) on_step({point, misfit(evaluator, problem, point), false, ""});
+      for (const auto &point : points)
+        on_step({point, misfit(evaluator, problem, point), false, ""});
     centre = best_point(evaluator, problem).value_or(centre);
   }
   if (tried > 0)
-    notes.push_back(fmt::format("{} more parameter sets that differ by little more than the noise were run about the "
-                                "minimum, because the best run until then missed a target",
-                                tried));
+    notes.push_back(fmt::format(
+        "{} more parameter sets that differ by little more than the noise were run about the "
+        "minimum, because the best run until then missed a target",
+        tried));
   return notes;
 }
 

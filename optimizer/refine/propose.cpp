@@ -35,12 +35,13 @@ struct ModelResiduals {
   }
 };
 
-std::optional<Proposal> propose(const Evaluator &evaluator, const FitProblem &problem, const TransformedPoint &from,
-                                const std::vector<double> &weights) {
+std::optional<Proposal> propose(const Evaluator &evaluator, const FitProblem &problem,
+                                const TransformedPoint &from, const std::vector<double> &weights) {
   std::vector<ResponseModel> models;
   for (const std::size_t target : problem.targets) {
     std::vector<double> values;
-    for (const auto &point : evaluator.points()) values.push_back(evaluator.value(point, target).value);
+    for (const auto &point : evaluator.points())
+      values.push_back(evaluator.value(point, target).value);
     auto model = ResponseModel::fit(evaluator.space(), evaluator.points(), values, weights);
     if (!model) return std::nullopt;
     models.push_back(std::move(*model));
@@ -52,7 +53,8 @@ std::optional<Proposal> propose(const Evaluator &evaluator, const FitProblem &pr
   double lowest = 0;
   for (auto start : {from.z, std::vector<double>(static_cast<std::size_t>(p), 0.0)}) {
     // NumericDiff is right here: the models are closed forms, no runs are behind them.
-    auto *cost = new ceres::DynamicNumericDiffCostFunction<ModelResiduals>(new ModelResiduals(residuals));
+    auto *cost =
+        new ceres::DynamicNumericDiffCostFunction<ModelResiduals>(new ModelResiduals(residuals));
     cost->AddParameterBlock(p);
     cost->SetNumResiduals(static_cast<int>(models.size()) + p);
     ceres::Problem ceres_problem;  // owns the cost

@@ -8,7 +8,8 @@ namespace bondlab {
 
 namespace {
 
-constexpr double gradient_step = 1e-4;  // in z; the model is a closed form, so only rounding limits it
+constexpr double gradient_step =
+    1e-4;  // in z; the model is a closed form, so only rounding limits it
 
 Eigen::VectorXd basis(const std::vector<double> &u, bool squares) {
   const Eigen::Index p = static_cast<Eigen::Index>(u.size());
@@ -27,8 +28,10 @@ struct Regression {
   double error = std::numeric_limits<double>::infinity();
 };
 
-// Weighted least squares with the leave-one-out error from the leverages (no refits needed for a linear model).
-std::optional<Regression> regress(const Eigen::MatrixXd &rows, const Eigen::VectorXd &y, const Eigen::VectorXd &weight) {
+// Weighted least squares with the leave-one-out error from the leverages (no refits needed for a
+// linear model).
+std::optional<Regression> regress(const Eigen::MatrixXd &rows, const Eigen::VectorXd &y,
+                                  const Eigen::VectorXd &weight) {
   const Eigen::VectorXd root = weight.cwiseSqrt();
   const Eigen::MatrixXd a = root.asDiagonal() * rows;
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
@@ -39,7 +42,8 @@ std::optional<Regression> regress(const Eigen::MatrixXd &rows, const Eigen::Vect
   double sum = 0;
   for (Eigen::Index i = 0; i < y.size(); ++i) {
     const double leverage = q.row(i).squaredNorm();
-    if (leverage > 1 - 1e-9) return std::nullopt;  // a point that alone decides a coefficient can't be judged
+    if (leverage > 1 - 1e-9)
+      return std::nullopt;  // a point that alone decides a coefficient can't be judged
     const double left_out = (y(i) - rows.row(i).dot(regression.coefficients)) / (1 - leverage);
     sum += weight(i) * left_out * left_out;
   }
@@ -89,12 +93,15 @@ std::optional<ResponseModel> ResponseModel::fit(const ParameterSpace &space,
     }
     for (const bool logarithm : {false, true}) {
       if (logarithm && !positive) continue;
-      // Both errors are relative: the logarithm's by nature, the other by the mean size of the response.
-      const auto regression = regress(rows, logarithm ? y.array().log().matrix() : (y / size).eval(), weight);
+      // Both errors are relative: the logarithm's by nature, the other by the mean size of the
+      // response.
+      const auto regression =
+          regress(rows, logarithm ? y.array().log().matrix() : (y / size).eval(), weight);
       if (!regression || regression->error >= best.error_) continue;
       best.logarithm_ = logarithm;
       best.squares_ = squares;
-      best.coefficients_ = logarithm ? regression->coefficients : (regression->coefficients * size).eval();
+      best.coefficients_ =
+          logarithm ? regression->coefficients : (regression->coefficients * size).eval();
       best.error_ = regression->error;
     }
   }

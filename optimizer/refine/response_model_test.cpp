@@ -20,7 +20,8 @@ struct Bench {
   std::vector<TransformedPoint> points;
 
   explicit Bench(int count = 12) {
-    for (const auto &u : latin_hypercube(count, 3, 1)) points.push_back(space.to_transformed(space.from_unit_cube(u)));
+    for (const auto &u : latin_hypercube(count, 3, 1))
+      points.push_back(space.to_transformed(space.from_unit_cube(u)));
   }
   template <class F>
   std::vector<double> values(F &&f) const {
@@ -38,10 +39,12 @@ TEST(ResponseModel, PowerLawAndLogarithmAreExactOnLogarithmicScales) {
   const Bench bench;
   const TransformedPoint elsewhere{{0.7, -1.1, 0.3}};
   const auto x = bench.space.to_physical(elsewhere).x;
-  const auto strength = ResponseModel::fit(bench.space, bench.points, bench.values(ucs), bench.ones());
+  const auto strength =
+      ResponseModel::fit(bench.space, bench.points, bench.values(ucs), bench.ones());
   ASSERT_TRUE(strength);
   EXPECT_NEAR(strength->value(elsewhere) / ucs(x), 1, 1e-9);
-  const auto poisson = ResponseModel::fit(bench.space, bench.points, bench.values(nu), bench.ones());
+  const auto poisson =
+      ResponseModel::fit(bench.space, bench.points, bench.values(nu), bench.ones());
   ASSERT_TRUE(poisson);
   EXPECT_NEAR(poisson->value(elsewhere) / nu(x), 1, 1e-9);
 }

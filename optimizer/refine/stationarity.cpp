@@ -6,8 +6,9 @@
 
 namespace bondlab {
 
-Stationarity judge_stationarity(const Evaluator &evaluator, const FitProblem &problem, const TransformedPoint &point,
-                                const Jacobian &jacobian, const Immaterial &immaterial) {
+Stationarity judge_stationarity(const Evaluator &evaluator, const FitProblem &problem,
+                                const TransformedPoint &point, const Jacobian &jacobian,
+                                const Immaterial &immaterial) {
   Stationarity verdict;
   const auto targets = standardised(evaluator, problem, point);
   if (!targets) return verdict;
@@ -46,8 +47,8 @@ Stationarity judge_stationarity(const Evaluator &evaluator, const FitProblem &pr
   verdict.statistic = gradient.dot(covariance.ldlt().solve(gradient));
   verdict.limit = boost::math::quantile(boost::math::chi_squared(static_cast<double>(p)), 0.95);
   verdict.gain = gradient.dot(hessian.ldlt().solve(gradient));
-  const bool could_be_zero =
-      verdict.statistic <= verdict.limit && verdict.gain <= gain_worth_having + 4 * verdict.noise_gain;
+  const bool could_be_zero = verdict.statistic <= verdict.limit &&
+                             verdict.gain <= gain_worth_having + 4 * verdict.noise_gain;
   const bool nothing_to_gain = verdict.gain <= std::max(verdict.noise_gain, immaterial.gain);
   verdict.stationary = !jacobian.any_frozen() && (could_be_zero || nothing_to_gain);
   return verdict;

@@ -19,7 +19,7 @@ namespace bondlab {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double unlikely = 0.01;  // a joint misfit less probable than this is called one
+constexpr double unlikely = 0.01;           // a joint misfit less probable than this is called one
 constexpr double noticeable_noise = 0.005;  // of the measured value: a sixth of what counts as met
 
 TargetResult target_result(const Evaluator &evaluator, std::size_t index, double noise,
@@ -45,7 +45,8 @@ TargetResult target_result(const Evaluator &evaluator, std::size_t index, double
   return result;
 }
 
-PackingScatter packing_scatter(const Evaluator &evaluator, std::size_t index, const TransformedPoint &point) {
+PackingScatter packing_scatter(const Evaluator &evaluator, std::size_t index,
+                               const TransformedPoint &point) {
   const auto &target = evaluator.study().targets[index];
   PackingScatter row;
   row.target = target.name;
@@ -85,7 +86,8 @@ void add_outcomes(const Evaluator &evaluator, const TransformedPoint &point, Sin
       Finding finding;
       finding.kind = FindingKind::quality;
       finding.text = fmt::format(
-          "test {}: the forces on the two platens differ by up to {:.0f} % between 40 and 60 % of the peak: the "
+          "test {}: the forces on the two platens differ by up to {:.0f} % between 40 and 60 % of "
+          "the peak: the "
           "loading is not quasi-static, a slower platen is advisable",
           target.test, 100 * imbalance->second);
       result.findings.push_back(std::move(finding));
@@ -95,16 +97,18 @@ void add_outcomes(const Evaluator &evaluator, const TransformedPoint &point, Sin
 }
 
 // Parameters, judged with measurement and packings together.
-void add_parameters(const Evaluator &evaluator, const FitProblem &problem, const std::vector<double> &noise,
-                    const MarquardtResult &found, SingleFit &result) {
+void add_parameters(const Evaluator &evaluator, const FitProblem &problem,
+                    const std::vector<double> &noise, const MarquardtResult &found,
+                    SingleFit &result) {
   FitProblem final = problem;
   for (std::size_t i = 0; i < problem.targets.size(); ++i) {
     const double simulated = simulation_sd(noise[problem.targets[i]], result.packings[i].sd);
     final.sd[i] = combined_sd(evaluator.study().targets[problem.targets[i]].sd, simulated);
   }
   const auto rows = standardised(evaluator, final, found.point);
-  auto judged = judge_parameters(evaluator.space(), final, reweighted(found.jacobian, problem, final), found.point,
-                                 rows.value_or(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(final.sd.size()))));
+  auto judged = judge_parameters(
+      evaluator.space(), final, reweighted(found.jacobian, problem, final), found.point,
+      rows.value_or(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(final.sd.size()))));
   result.parameters = std::move(judged.parameters);
   result.correlation = std::move(judged.correlation);
   result.findings.insert(result.findings.end(), judged.ridges.begin(), judged.ridges.end());
@@ -119,8 +123,8 @@ void add_parameters(const Evaluator &evaluator, const FitProblem &problem, const
 
 void add_joint_misfit(const FitProblem &problem, SingleFit &result) {
   if (result.degrees_of_freedom <= 0) return;
-  const double p = boost::math::cdf(
-      boost::math::complement(boost::math::chi_squared(static_cast<double>(result.degrees_of_freedom)), result.misfit));
+  const double p = boost::math::cdf(boost::math::complement(
+      boost::math::chi_squared(static_cast<double>(result.degrees_of_freedom)), result.misfit));
   if (p >= unlikely) return;
   Finding finding;
   finding.kind = FindingKind::joint_misfit;
@@ -128,12 +132,17 @@ void add_joint_misfit(const FitProblem &problem, SingleFit &result) {
     if (target.in_fit) finding.targets.push_back(target.name);
   finding.measured = result.misfit;
   finding.text = fmt::format(
-      "The {} targets together leave a misfit of {:.3g} for {} degree{} of freedom; scatter of measurement and simulation "
-      "alone would give as much with a probability of {:.1g}. The model lacks something that the specimen has",
-      problem.targets.size(), result.misfit, result.degrees_of_freedom, result.degrees_of_freedom == 1 ? "" : "s", p);
+      "The {} targets together leave a misfit of {:.3g} for {} degree{} of freedom; scatter of "
+      "measurement and simulation "
+      "alone would give as much with a probability of {:.1g}. The model lacks something that the "
+      "specimen has",
+      problem.targets.size(), result.misfit, result.degrees_of_freedom,
+      result.degrees_of_freedom == 1 ? "" : "s", p);
   result.findings.push_back(std::move(finding));
-  result.notes.push_back("the parameters' sd and intervals hold for a model that can meet the targets; with this misfit "
-                         "they are too small");
+  result.notes.push_back(
+      "the parameters' sd and intervals hold for a model that can meet the targets; with this "
+      "misfit "
+      "they are too small");
 }
 
 // Says how much of the closeness of the best run may be chance.
@@ -141,15 +150,19 @@ void add_noise_note(SingleFit &result) {
   std::vector<std::string> scatter;
   for (const auto &target : result.targets)
     if (target.in_fit && target.noise_sd > noticeable_noise * std::fabs(target.measured))
-      scatter.push_back(fmt::format("{} by {:.1f} %", target.name, 100 * target.noise_sd / std::fabs(target.measured)));
+      scatter.push_back(fmt::format("{} by {:.1f} %", target.name,
+                                    100 * target.noise_sd / std::fabs(target.measured)));
   if (scatter.empty()) return;
-  result.notes.push_back(fmt::format("single runs scatter under tiny changes of the parameters ({} of the measured value, "
-                                     "one sd): part of the closeness of a single run is chance, the other packings "
-                                     "show what the set is worth",
-                                     fmt::join(scatter, ", ")));
+  result.notes.push_back(fmt::format(
+      "single runs scatter under tiny changes of the parameters ({} of the measured value, "
+      "one sd): part of the closeness of a single run is chance, the other packings "
+      "show what the set is worth",
+      fmt::join(scatter, ", ")));
 }
 
-std::string list_names(const std::vector<std::string> &names) { return fmt::format("{}", fmt::join(names, ", ")); }
+std::string list_names(const std::vector<std::string> &names) {
+  return fmt::format("{}", fmt::join(names, ", "));
+}
 
 std::string verdict_in_words(const SingleFit &result) {
   std::vector<std::string> met, missed;
@@ -163,16 +176,18 @@ std::string verdict_in_words(const SingleFit &result) {
   else if (met.empty())
     text = fmt::format("None of the {} targets of the fit is met {}.", all, within);
   else
-    text = fmt::format("{} of {} targets of the fit are met {}: {}.", met.size(), all, within, list_names(met));
+    text = fmt::format("{} of {} targets of the fit are met {}: {}.", met.size(), all, within,
+                       list_names(met));
   for (const auto &target : result.targets)
     if (target.in_fit && !target.met) text += " Not met: " + difference_in_words(target) + ".";
   for (const auto &finding : result.findings) {
-    const bool impossible =
-        finding.kind == FindingKind::unreachable_target || finding.kind == FindingKind::unreachable_ratio;
+    const bool impossible = finding.kind == FindingKind::unreachable_target ||
+                            finding.kind == FindingKind::unreachable_ratio;
     // What concerns predicted targets only is a finding, not part of this fit's verdict.
     bool about_fit = impossible;
     for (const auto &name : finding.targets)
-      for (const auto &target : result.targets) about_fit = about_fit && (target.name != name || target.in_fit);
+      for (const auto &target : result.targets)
+        about_fit = about_fit && (target.name != name || target.in_fit);
     if (about_fit) text += " " + finding.text + ".";
   }
   for (const auto &target : result.targets)
@@ -186,13 +201,14 @@ std::string verdict_in_words(const SingleFit &result) {
 std::string difference_in_words(const TargetResult &target) {
   const std::string measured = format_quantity(target.measured, target.unit);
   if (!target.why_missing.empty())
-    return fmt::format("{} could not be computed ({}); measured {}", target.name, target.why_missing, measured);
+    return fmt::format("{} could not be computed ({}); measured {}", target.name,
+                       target.why_missing, measured);
   const std::string simulated = format_quantity(target.simulated, target.unit);
   const std::string sds = fmt::format("{:.1f} sd", std::fabs(target.off_in_sd()));
   if (target.measured == 0)
     return fmt::format("{} is {} against {} measured, {}", target.name, simulated, measured, sds);
-  return fmt::format("{} is {} against {} measured, {:+.1f} % or {}", target.name, simulated, measured,
-                     100 * target.off(), sds);
+  return fmt::format("{} is {} against {} measured, {:+.1f} % or {}", target.name, simulated,
+                     measured, 100 * target.off(), sds);
 }
 
 void summarise(const Evaluator &evaluator, const FitEntry &entry, const FitProblem &problem,
@@ -200,7 +216,8 @@ void summarise(const Evaluator &evaluator, const FitEntry &entry, const FitProbl
   const auto &study = evaluator.study();
   result.converged = found.converged;
   result.misfit = misfit(evaluator, problem, found.point);
-  result.degrees_of_freedom = static_cast<int>(problem.targets.size()) - static_cast<int>(evaluator.space().n());
+  result.degrees_of_freedom =
+      static_cast<int>(problem.targets.size()) - static_cast<int>(evaluator.space().n());
 
   TargetIndices all = problem.targets;
   for (const auto &name : entry.predicted)
@@ -228,8 +245,9 @@ void summarise(const Evaluator &evaluator, const FitEntry &entry, const FitProbl
   for (const auto &failure : evaluator.failures()) {
     Finding finding;
     finding.kind = FindingKind::failure;
-    finding.text = fmt::format("a forward run failed ({}): {}; kept in {}; again: {}", to_string(failure.cause),
-                               failure.message, failure.run_directory, failure.command);
+    finding.text = fmt::format("a forward run failed ({}): {}; kept in {}; again: {}",
+                               to_string(failure.cause), failure.message, failure.run_directory,
+                               failure.command);
     result.findings.push_back(std::move(finding));
   }
   result.verdict = verdict_in_words(result);

@@ -21,8 +21,8 @@ constexpr double shown_change = 10;          // %, the largest change in a ridge
 Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 struct Directions {
-  Eigen::MatrixXd fixed, null;   // columns: directions in the space of the free parameters
-  Eigen::VectorXd singular;      // of `fixed`
+  Eigen::MatrixXd fixed, null;  // columns: directions in the space of the free parameters
+  Eigen::VectorXd singular;     // of `fixed`
 };
 
 Directions split_directions(const Eigen::MatrixXd &rows, const Eigen::MatrixXd &noise) {
@@ -45,7 +45,8 @@ Directions split_directions(const Eigen::MatrixXd &rows, const Eigen::MatrixXd &
     directions.fixed.col(index(j)) = svd.matrixV().col(fixed[j]);
     directions.singular(index(j)) = singular(fixed[j]);
   }
-  for (std::size_t j = 0; j < null.size(); ++j) directions.null.col(index(j)) = svd.matrixV().col(null[j]);
+  for (std::size_t j = 0; j < null.size(); ++j)
+    directions.null.col(index(j)) = svd.matrixV().col(null[j]);
   return directions;
 }
 
@@ -65,11 +66,13 @@ std::string ridge_in_words(const ParameterSpace &space, const std::vector<std::s
   for (Eigen::Index k = 0; k < change.size(); ++k)
     if (std::fabs(change(k)) >= 0.05 * shown_change)
       parts.push_back(fmt::format("{} {} by {:.2g} %", change(k) > 0 ? "raising" : "lowering",
-                                  space.names()[free[static_cast<std::size_t>(k)]], std::fabs(change(k))));
+                                  space.names()[free[static_cast<std::size_t>(k)]],
+                                  std::fabs(change(k))));
   return fmt::format("{} changes no target of the fit beyond the noise", fmt::join(parts, " and "));
 }
 
-// In which direction the data push a parameter: -1 down, 1 up, 0 not at all (within the noise of the rows).
+// In which direction the data push a parameter: -1 down, 1 up, 0 not at all (within the noise of
+// the rows).
 int push_of_data(const Eigen::VectorXd &column, const Eigen::VectorXd &standardised) {
   const double gradient = column.dot(standardised), size = column.norm();
   if (size == 0 || std::fabs(gradient) <= size) return 0;  // less than one sd along this parameter
@@ -79,8 +82,9 @@ int push_of_data(const Eigen::VectorXd &column, const Eigen::VectorXd &standardi
 std::string reason_at_bound(const ParameterSpace &space, std::size_t k, BoundSide side, int push) {
   const auto &parameter = space.parameter(k);
   const bool lower = side == BoundSide::lower;
-  const std::string where = fmt::format("lies at its {} bound, {}", lower ? "lower" : "upper",
-                                        format_quantity(lower ? parameter.lower : parameter.upper, parameter.unit));
+  const std::string where =
+      fmt::format("lies at its {} bound, {}", lower ? "lower" : "upper",
+                  format_quantity(lower ? parameter.lower : parameter.upper, parameter.unit));
   if (push == (lower ? -1 : 1)) return where + "; the data ask for a value beyond it";
   if (push == 0) return where + "; the data do not say whether a value beyond it would be better";
   return where + "; the data pull back from it: this is not a minimum";
@@ -97,8 +101,9 @@ Jacobian reweighted(const Jacobian &jacobian, const FitProblem &from, const FitP
   return scaled;
 }
 
-Uncertainty judge_parameters(const ParameterSpace &space, const FitProblem &problem, const Jacobian &jacobian,
-                             const TransformedPoint &point, const Eigen::VectorXd &standardised) {
+Uncertainty judge_parameters(const ParameterSpace &space, const FitProblem &problem,
+                             const Jacobian &jacobian, const TransformedPoint &point,
+                             const Eigen::VectorXd &standardised) {
   Uncertainty uncertainty;
   const auto physical = space.to_physical(point);
   std::vector<std::size_t> free;
@@ -114,7 +119,8 @@ Uncertainty judge_parameters(const ParameterSpace &space, const FitProblem &prob
     result.at_bound = space.at_bound(k, physical.x[k], bound_fraction);
     if (result.at_bound != BoundSide::none) {
       result.identifiable = false;
-      result.reason = reason_at_bound(space, k, result.at_bound, push_of_data(jacobian.rows.col(index(k)), standardised));
+      result.reason = reason_at_bound(space, k, result.at_bound,
+                                      push_of_data(jacobian.rows.col(index(k)), standardised));
     } else if (jacobian.frozen[k]) {
       result.identifiable = false;
       result.reason = "the runs beside its value failed, so nothing is known about it";
@@ -136,7 +142,8 @@ Uncertainty judge_parameters(const ParameterSpace &space, const FitProblem &prob
   // With the prior each kept direction gains its 1 / prior_sd^2.
   const double prior = 1 / (problem.prior_sd * problem.prior_sd);
   const Eigen::VectorXd with_prior = (directions.singular.cwiseAbs2().array() + prior).inverse();
-  const Eigen::MatrixXd covariance = directions.fixed * with_prior.asDiagonal() * directions.fixed.transpose();
+  const Eigen::MatrixXd covariance =
+      directions.fixed * with_prior.asDiagonal() * directions.fixed.transpose();
 
   for (Eigen::Index j = 0; j < directions.null.cols(); ++j) {
     Finding ridge;

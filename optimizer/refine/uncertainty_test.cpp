@@ -73,9 +73,11 @@ TEST(Uncertainty, CovarianceIsThatOfCeresDenseSvd) {
   ASSERT_EQ(judged.correlation.size(), 3u);
   for (std::size_t k = 0; k < 3; ++k) {
     const double sd_z = std::sqrt(block[4 * k]);
-    EXPECT_NEAR(judged.parameters[k].sd, sd_z * bench.space.dx_dz(k, bench.point.z[k]), 1e-9 * judged.parameters[k].sd);
+    EXPECT_NEAR(judged.parameters[k].sd, sd_z * bench.space.dx_dz(k, bench.point.z[k]),
+                1e-9 * judged.parameters[k].sd);
     for (std::size_t l = 0; l < 3; ++l)
-      EXPECT_NEAR(judged.correlation[k][l], block[3 * k + l] / std::sqrt(block[4 * k] * block[4 * l]), 1e-9);
+      EXPECT_NEAR(judged.correlation[k][l],
+                  block[3 * k + l] / std::sqrt(block[4 * k] * block[4 * l]), 1e-9);
   }
 }
 
@@ -110,7 +112,8 @@ TEST(Uncertainty, DirectionWithoutASingularValueIsARidgeInWords) {
 
 TEST(Uncertainty, SingularValueThatTheNoiseCouldMakeCountsAsNone) {
   Bench bench(regular());
-  bench.jacobian.rows.col(2) << 0.4, -0.3, 0.5;  // what noise of this size leaves of a column of zeros
+  bench.jacobian.rows.col(2) << 0.4, -0.3,
+      0.5;  // what noise of this size leaves of a column of zeros
   bench.jacobian.noise_sd.col(2).setConstant(0.5);
   auto judged = bench.judge();
   EXPECT_FALSE(judged.parameters[2].identifiable);
@@ -120,8 +123,8 @@ TEST(Uncertainty, SingularValueThatTheNoiseCouldMakeCountsAsNone) {
   EXPECT_EQ(judged.ridges.size(), 0u);
 }
 
-// Ten planted cases on both sides of the 3.84 line: a sd of s between the bounds, the value in the middle, so that the profile
-// rises to (0.5 / s)^2 at either bound.
+// Ten planted cases on both sides of the 3.84 line: a sd of s between the bounds, the value in the
+// middle, so that the profile rises to (0.5 / s)^2 at either bound.
 TEST(Uncertainty, FlatProfileAndNotIdentifiableAreTheSame) {
   for (const double s : {0.01, 0.05, 0.1, 0.2, 0.25, 0.26, 0.3, 0.5, 1.0, 5.0}) {
     Bench bench(regular());
@@ -136,8 +139,9 @@ TEST(Uncertainty, FlatProfileAndNotIdentifiableAreTheSame) {
 
 TEST(Uncertainty, ProfileFlatTowardsOneBoundOnlyIsSaid) {
   Bench bench(Eigen::Matrix3d::Identity() * 20);
-  bench.point = {{0, 0, 2}};            // u = 0.88
-  bench.jacobian.rows(2, 2) = 0.105 / 0.3;  // sd of u 0.3: 0.88 away from the lower bound, 0.12 from the upper
+  bench.point = {{0, 0, 2}};  // u = 0.88
+  bench.jacobian.rows(2, 2) =
+      0.105 / 0.3;  // sd of u 0.3: 0.88 away from the lower bound, 0.12 from the upper
   const auto p = bench.judge().parameters[2];
   EXPECT_TRUE(p.identifiable);
   EXPECT_EQ(p.reason, "the data limit it from below only");

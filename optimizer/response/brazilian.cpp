@@ -30,7 +30,8 @@ double platen_imbalance(const Curve &curve, const ResponseContext &) {
   require_monotonic_time(curve);
   const auto load = mean_force(curve);
   const auto window = loading_window(load, find_peak(load));
-  return relative_imbalance(finite_column(curve, "force_top"), finite_column(curve, "force_bottom"), window);
+  return relative_imbalance(finite_column(curve, "force_top"), finite_column(curve, "force_bottom"),
+                            window);
 }
 
 }  // namespace bondlab::brazilian

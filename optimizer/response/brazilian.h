@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Splitting tensile strength of a Brazilian test: sigma_t = 2 P / (pi D t) at the peak load P.
-//
-// The formula is that of ISRM 1978 and ASTM D3967 for flat platens. P is the mean of the two platens' forces, which
-// halves the part of a platen wave that the two see with opposite sign.
-// Columns read: time, force_top, force_bottom (N, compression +). Deck variables: diameter, thickness (m); in 2D the
-// thickness is the deck's disc thickness.
+// Job: splitting tensile strength of a Brazilian test: sigma_t = 2 P / (pi D t) at the peak load P.
+// Method: the formula is that of ISRM 1978 and ASTM D3967 for flat platens. P is the mean of the two
+//   platens' forces, which halves the part of a platen wave that the two see with opposite sign.
+// Columns read: time, force_top, force_bottom (N, compression +). Deck variables: diameter,
+//   thickness (m); in 2D the thickness is the deck's disc thickness.
 // Units: SI. Failure: ResponseError, see response.h.
-// Limits: the formula holds for a crack that starts at the centre; where the cracks start is not judged here.
+// Limits: the formula holds for a crack that starts at the centre; where the cracks start is not
+//   judged here.
 #pragma once
 
 #include "response/response.h"
@@ -15,7 +15,8 @@
 namespace bondlab::brazilian {
 
 double tensile_strength(const Curve &curve, const ResponseContext &context);  ///< Pa
-/// Quality: largest difference of the platens' forces between 40 and 60 % of the peak, as a share of their mean.
+/// Quality: largest difference of the platens' forces between 40 and 60 % of the peak, as a share
+/// of their mean.
 double platen_imbalance(const Curve &curve, const ResponseContext &context);
 
 }  // namespace bondlab::brazilian

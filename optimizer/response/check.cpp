@@ -13,9 +13,11 @@ void check_response_functions(const Study &study) {
       const auto &response = entry.second;
       if (is_response_function(response.function)) continue;
       const std::string nearest = nearest_word(response.function, known);
-      errors.add(response.place, "the response '" + response.name + "' comes from '" + response.function +
+      errors.add(response.place, "the response '" + response.name + "' comes from '" +
+                                     response.function +
                                      "', which isn't a function of this program" +
-                                     (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") + " (allowed: " + join(known) + ")");
+                                     (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") +
+                                     " (allowed: " + join(known) + ")");
     }
   errors.throw_if_any();
 }

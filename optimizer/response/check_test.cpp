@@ -15,7 +15,9 @@ Study study_with(const std::string &function) {
   return study;
 }
 
-TEST(ResponseFunctions, KnownOnesPass) { EXPECT_NO_THROW(check_response_functions(study_with("uniaxial.peak_stress"))); }
+TEST(ResponseFunctions, KnownOnesPass) {
+  EXPECT_NO_THROW(check_response_functions(study_with("uniaxial.peak_stress")));
+}
 
 TEST(ResponseFunctions, MistypedOneIsNamedWithItsPlaceAndTheNearest) {
   try {

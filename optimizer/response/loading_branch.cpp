@@ -17,7 +17,8 @@ const std::vector<double> &raw_column(const Curve &curve, const std::string &nam
   const auto found = std::find(curve.names.begin(), curve.names.end(), name);
   if (found == curve.names.end())
     throw ResponseError(ResponseCause::missing_column,
-                        fmt::format("the curve has no column '{}'; it has: {}", name, fmt::join(curve.names, ", ")));
+                        fmt::format("the curve has no column '{}'; it has: {}", name,
+                                    fmt::join(curve.names, ", ")));
   return curve.columns.at(static_cast<std::size_t>(found - curve.names.begin()));
 }
 
@@ -27,8 +28,9 @@ const std::vector<double> &finite_column(const Curve &curve, const std::string &
   const auto &column = raw_column(curve, name);
   const std::size_t samples = raw_column(curve, "time").size();
   if (column.size() != samples)
-    throw ResponseError(ResponseCause::bad_data, fmt::format("column '{}' has {} samples, 'time' has {}", name,
-                                                             column.size(), samples));
+    throw ResponseError(
+        ResponseCause::bad_data,
+        fmt::format("column '{}' has {} samples, 'time' has {}", name, column.size(), samples));
   for (std::size_t i = 0; i < column.size(); ++i)
     if (!std::isfinite(column[i]))
       throw ResponseError(ResponseCause::bad_data,
@@ -40,9 +42,10 @@ void require_monotonic_time(const Curve &curve) {
   const auto &time = finite_column(curve, "time");
   for (std::size_t i = 1; i < time.size(); ++i)
     if (!(time[i] > time[i - 1]))
-      throw ResponseError(ResponseCause::time_not_monotonic,
-                          fmt::format("time does not grow from sample {} ({:g} s) to sample {} ({:g} s)", i,
-                                      time[i - 1], i + 1, time[i]));
+      throw ResponseError(
+          ResponseCause::time_not_monotonic,
+          fmt::format("time does not grow from sample {} ({:g} s) to sample {} ({:g} s)", i,
+                      time[i - 1], i + 1, time[i]));
 }
 
 std::size_t find_peak(const std::vector<double> &load) {
@@ -52,14 +55,16 @@ std::size_t find_peak(const std::vector<double> &load) {
   if (!(peak > 0)) throw ResponseError(ResponseCause::no_load, "the specimen never carried load");
   const double lowest_after = *std::min_element(top, load.end());
   if (lowest_after > (1 - minimum_drop_after_peak) * peak)
-    throw ResponseError(ResponseCause::test_not_finished,
-                        fmt::format("the load fell by only {:.1f} % behind its peak ({:.0f} % needed): the test "
-                                    "stopped before the specimen failed",
-                                    100 * (1 - lowest_after / peak), 100 * minimum_drop_after_peak));
+    throw ResponseError(
+        ResponseCause::test_not_finished,
+        fmt::format("the load fell by only {:.1f} % behind its peak ({:.0f} % needed): the test "
+                    "stopped before the specimen failed",
+                    100 * (1 - lowest_after / peak), 100 * minimum_drop_after_peak));
   return static_cast<std::size_t>(top - load.begin());
 }
 
-SampleWindow loading_window(const std::vector<double> &load, std::size_t peak, double lower, double upper) {
+SampleWindow loading_window(const std::vector<double> &load, std::size_t peak, double lower,
+                            double upper) {
   SampleWindow window;
   const double high = upper * load[peak], low = lower * load[peak];
   window.last = 0;
@@ -67,10 +72,12 @@ SampleWindow loading_window(const std::vector<double> &load, std::size_t peak, d
   window.first = window.last;
   while (window.first > 0 && load[window.first - 1] >= low) --window.first;
   if (window.size() < minimum_window_samples)
-    throw ResponseError(ResponseCause::window_too_small,
-                        fmt::format("{} samples between {:.0f} and {:.0f} % of the peak, {} needed: sample the curve "
-                                    "more often",
-                                    window.size(), 100 * lower, 100 * upper, minimum_window_samples));
+    throw ResponseError(
+        ResponseCause::window_too_small,
+        fmt::format(
+            "{} samples between {:.0f} and {:.0f} % of the peak, {} needed: sample the curve "
+            "more often",
+            window.size(), 100 * lower, 100 * upper, minimum_window_samples));
   return window;
 }
 
@@ -90,15 +97,18 @@ LineFit fit_line(const std::vector<double> &x, const std::vector<double> &y, Sam
     syy += dy * dy;
   }
   if (!(sxx > 100 * n * rounding * rounding))  // what rounding alone leaves of a constant
-    throw ResponseError(ResponseCause::implausible, "the strain does not change in the regression window");
+    throw ResponseError(ResponseCause::implausible,
+                        "the strain does not change in the regression window");
   LineFit fit;
   fit.slope = sxy / sxx;
   fit.intercept = mean_y - fit.slope * mean_x;
-  if (window.size() > 2) fit.slope_error = std::sqrt(std::max(0.0, syy - fit.slope * sxy) / ((n - 2) * sxx));
+  if (window.size() > 2)
+    fit.slope_error = std::sqrt(std::max(0.0, syy - fit.slope * sxy) / ((n - 2) * sxx));
   return fit;
 }
 
-double relative_imbalance(const std::vector<double> &a, const std::vector<double> &b, SampleWindow window) {
+double relative_imbalance(const std::vector<double> &a, const std::vector<double> &b,
+                          SampleWindow window) {
   double worst = 0, mean = 0;
   for (std::size_t i = window.first; i < window.last; ++i) {
     worst = std::max(worst, std::fabs(a[i] - b[i]));

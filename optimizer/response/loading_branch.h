@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// What every loading test has in common: find the peak, see that the test went beyond it, take a window of the loading
-// branch, fit a straight line in it.
-//
-// The window runs from the last crossing of the lower level to the first crossing of the upper one, before the peak.
-// That leaves out the platen's first knock (an early spike over the lower level) and anything after the peak.
-// Source: ISRM 1979 and ASTM D7012 (tangent over a fixed part around half of the peak, by regression).
+// Job: what every loading test has in common: find the peak, see that the test went beyond it, take
+//   a window of the loading branch, fit a straight line in it.
+// Method: the window runs from the last crossing of the lower level to the first crossing of the
+//   upper one, before the peak. That leaves out the platen's first knock (an early spike over the
+//   lower level) and anything after the peak.
+// Source: ISRM 1979 and ASTM D7012 (tangent over a fixed part around half of the peak, by
+//   regression).
 // Units: those of the columns given. Failure: ResponseError.
 #pragma once
 
@@ -35,7 +36,8 @@ constexpr double minimum_drop_after_peak = 0.05;
 /// Part of the peak load over which tangents are taken.
 constexpr double window_lower = 0.40, window_upper = 0.60;
 
-/// Column of the curve; ResponseError when it is absent, of another length than time, or not finite.
+/// Column of the curve; ResponseError when it is absent, of another length than time, or not
+/// finite.
 const std::vector<double> &finite_column(const Curve &curve, const std::string &name);
 
 /// ResponseError unless time grows from sample to sample.
@@ -45,14 +47,15 @@ void require_monotonic_time(const Curve &curve);
 std::size_t find_peak(const std::vector<double> &load);
 
 /// Part of the loading branch between the two shares of the peak.
-SampleWindow loading_window(const std::vector<double> &load, std::size_t peak, double lower = window_lower,
-                            double upper = window_upper);
+SampleWindow loading_window(const std::vector<double> &load, std::size_t peak,
+                            double lower = window_lower, double upper = window_upper);
 
 /// Least squares of y on x in the window.
 LineFit fit_line(const std::vector<double> &x, const std::vector<double> &y, SampleWindow window);
 
-/// Largest |a - b| over the window, as a share of the mean of |a| and |b| over the window: how far two forces that
-/// must be equal at rest are apart.
-double relative_imbalance(const std::vector<double> &a, const std::vector<double> &b, SampleWindow window);
+/// Largest |a - b| over the window, as a share of the mean of |a| and |b| over the window: how far
+/// two forces that must be equal at rest are apart.
+double relative_imbalance(const std::vector<double> &a, const std::vector<double> &b,
+                          SampleWindow window);
 
 }  // namespace bondlab

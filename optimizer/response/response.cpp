@@ -43,15 +43,24 @@ const std::multimap<std::string, std::string> &quality_registry() {
 
 const char *to_string(ResponseCause cause) {
   switch (cause) {
-    case ResponseCause::unknown_function: return "unknown_function";
-    case ResponseCause::missing_column: return "missing_column";
-    case ResponseCause::missing_variable: return "missing_variable";
-    case ResponseCause::bad_data: return "bad_data";
-    case ResponseCause::time_not_monotonic: return "time_not_monotonic";
-    case ResponseCause::no_load: return "no_load";
-    case ResponseCause::test_not_finished: return "test_not_finished";
-    case ResponseCause::window_too_small: return "window_too_small";
-    case ResponseCause::implausible: return "implausible";
+    case ResponseCause::unknown_function:
+      return "unknown_function";
+    case ResponseCause::missing_column:
+      return "missing_column";
+    case ResponseCause::missing_variable:
+      return "missing_variable";
+    case ResponseCause::bad_data:
+      return "bad_data";
+    case ResponseCause::time_not_monotonic:
+      return "time_not_monotonic";
+    case ResponseCause::no_load:
+      return "no_load";
+    case ResponseCause::test_not_finished:
+      return "test_not_finished";
+    case ResponseCause::window_too_small:
+      return "window_too_small";
+    case ResponseCause::implausible:
+      return "implausible";
   }
   return "unknown";
 }
@@ -62,11 +71,14 @@ ResponseError::ResponseError(ResponseCause cause, const std::string &sentence)
 double ResponseContext::positive(const std::string &name) const {
   const auto found = variables.find(name);
   if (found == variables.end())
-    throw ResponseError(ResponseCause::missing_variable,
-                        fmt::format("the response needs the deck variable '{}', which the run does not have", name));
+    throw ResponseError(
+        ResponseCause::missing_variable,
+        fmt::format("the response needs the deck variable '{}', which the run does not have",
+                    name));
   if (!(found->second > 0) || !std::isfinite(found->second))
-    throw ResponseError(ResponseCause::missing_variable,
-                        fmt::format("the deck variable '{}' is {:g}; it must be positive", name, found->second));
+    throw ResponseError(
+        ResponseCause::missing_variable,
+        fmt::format("the deck variable '{}' is {:g}; it must be positive", name, found->second));
   return found->second;
 }
 

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Turns one curve of a virtual test into one macro-quantity (E, nu, UCS, splitting strength ...), by name.
-//
-// A test.toml names the function (`from = "uniaxial.peak_stress"`); the registry here finds it. Each kind of test has
-// one file in this room (uniaxial, brazilian); a new kind of test adds a file and its lines in response.cpp.
+// Job: turn one curve of a virtual test into one macro-quantity (E, nu, UCS, splitting strength
+//   ...), by name.
+// Method: a test.toml names the function (`from = "uniaxial.peak_stress"`), the registry finds it.
+//   Each kind of test has one file in this room (uniaxial, brazilian); a new kind of test adds a
+//   file and its lines in response.cpp.
 // Units: SI throughout (Pa, N, m, s, strain as a ratio).
-// Failure: ResponseError with a cause that can be counted and a sentence for a person. A curve that cannot carry a
-// quantity (test not finished, too few samples) gives an error and never a number. Doubts that do not spoil the
-// number itself (the platens' forces differ) are quality figures: functions of their own in the same registry.
+// Failure: ResponseError with a cause that can be counted and a sentence for a person. A curve that
+//   cannot carry a quantity (test not finished, too few samples) gives an error and never a number.
+//   Doubts that do not spoil the number itself (the platens' forces differ) are quality figures:
+//   functions of their own in the same registry.
 #pragma once
 
 #include <map>
@@ -59,8 +61,9 @@ std::vector<std::string> response_functions();
 
 bool is_response_function(const std::string &function);
 
-/// Quality figures of a run, by the family of a response function: name -> value. Empty when the family has none.
-/// Family is the part before the dot ("uniaxial"). Never throws: a figure that cannot be had is left out.
+/// Quality figures of a run, by the family of a response function: name -> value. Empty when the
+/// family has none. Family is the part before the dot ("uniaxial"). Never throws: a figure that
+/// cannot be had is left out.
 std::map<std::string, double> quality_figures(const std::string &function, const Curve &curve,
                                               const ResponseContext &context);
 

@@ -26,8 +26,9 @@ double tangent_modulus(const Curve &curve, const std::string &strain_name) {
   const auto window = loading_window(branch.stress, branch.peak);
   const double modulus = fit_line(strain, branch.stress, window).slope;
   if (!(modulus > 0))
-    throw ResponseError(ResponseCause::implausible,
-                        fmt::format("the tangent modulus by '{}' is {:g} Pa: not positive", strain_name, modulus));
+    throw ResponseError(
+        ResponseCause::implausible,
+        fmt::format("the tangent modulus by '{}' is {:g} Pa: not positive", strain_name, modulus));
   return modulus;
 }
 

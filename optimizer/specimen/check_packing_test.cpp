@@ -101,10 +101,12 @@ TEST(CheckPacking, LargeOverlap) {
 }
 
 TEST(CheckPacking, NotFinite) {
+  for (double Particle::*member : {&Particle::x, &Particle::y, &Particle::z, &Particle::r}) {
+    Specimen specimen = lattice(4);
+    specimen.particles[3].*member = std::nan("");
+    expect_part(complaint(specimen), "particle 4 has a place or radius that is not finite");
+  }
   Specimen specimen = lattice(4);
-  specimen.particles[3].y = std::nan("");
-  expect_part(complaint(specimen), "particle 4 has a place or radius that is not finite");
-  specimen = lattice(4);
   specimen.particles[3].r = 0;
   expect_part(complaint(specimen), "particle 4 has a place or radius");
 }

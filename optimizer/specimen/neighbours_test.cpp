@@ -42,6 +42,13 @@ TEST(Neighbours, NegativeGapGivesOverlapsBeyondIt) {
   expect_as_by_brute_force(random_particles(400, 20, 20, 0, 0.5, 2.0, 3), -0.4);
 }
 
+TEST(Neighbours, ParticlesSmallerThanTheOverlapAskedForHaveNoPairs) {
+  // Two small ones nearly in one place, beside large ones that do overlap by more than 1.
+  const std::vector<Particle> particles = {
+      {0, 0, 0, 0.2}, {0.1, 0, 0, 0.2}, {9, 0, 0, 2}, {11, 0, 0, 2}};
+  EXPECT_EQ(as_pairs(find_pairs(particles, -1)), (std::vector<std::pair<int, int>>{{2, 3}}));
+}
+
 TEST(Neighbours, FarOffParticleCostsNoMemoryAndNoPairs) {
   std::vector<Particle> particles = random_particles(100, 8, 8, 8, 0.3, 0.9, 4);
   particles.push_back({1e9, -1e9, 1e9, 0.5});

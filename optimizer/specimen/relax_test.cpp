@@ -45,6 +45,16 @@ TEST(Relaxation, LoosePackingStopsWithoutOverlap) {
   EXPECT_LT(found.overlap, 1e-9);
 }
 
+TEST(Relaxation, GivesUpBelowTheLooseOverlap) {
+  // A packing that is falling apart is left before it has: overlaps of 0.05 mean radii are loose.
+  const Container box(ContainerShape::rectangle, 30, 30, 0);
+  std::vector<Particle> discs = random_particles(60, 14, 30, 0, 1, 1.5, 5);
+  Relaxation relaxation(box, discs);
+  const Equilibrium found = relaxation.relax(1e-6, 0.05, 20000);
+  EXPECT_LT(found.overlap, 0.05);
+  EXPECT_GT(found.overlap, 0.005);
+}
+
 TEST(Relaxation, DensePackingOfDiscsBalancesOnEveryDisc) {
   const Container box(ContainerShape::disc, 0, 0, 20);
   std::vector<Particle> discs = random_particles(90, 12, 12, 0, 0.8, 1.2, 6);

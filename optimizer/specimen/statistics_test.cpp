@@ -117,6 +117,29 @@ TEST(Statistics, StressOfSpheresUsesTheirMeanRadius) {
   EXPECT_NEAR(s.max_overlap, 0.05, 1e-12);
 }
 
+TEST(Statistics, PrincipalStressesInSpaceWhateverTheAxes) {
+  // Three separate contacts along the columns of a rotation, overlaps 1 : 2 : 4.
+  const Container box(ContainerShape::cylinder, 0, 100, 100);
+  const double axes[3][3] = {
+      {2.0 / 3, -1.0 / 3, 2.0 / 3}, {2.0 / 3, 2.0 / 3, -1.0 / 3}, {-1.0 / 3, 2.0 / 3, 2.0 / 3}};
+  std::vector<Particle> spheres;
+  for (int k = 0; k < 3; ++k) {
+    const double d = 1 - 0.005 * (1 << k), x = 15.0 * (k - 1);
+    for (const double side : {-d, d})
+      spheres.push_back({x + side * axes[k][0], side * axes[k][1], 50 + side * axes[k][2], 1});
+  }
+  const SpecimenStatistics s = measure_packing(box, spheres);
+  EXPECT_NEAR(s.stress_ratio, 0.04 * 1.96 / (0.01 * 1.99), 1e-9);
+  EXPECT_NEAR(s.fabric_ratio, 1, 1e-9);
+}
+
+TEST(Statistics, EndsAreToldApart) {
+  const Container box(ContainerShape::rectangle, 10, 10, 0);
+  const SpecimenStatistics s = measure_packing(box, {{0, 1, 0, 1}, {2, 1, 0, 1}, {0, 9, 0, 1}});
+  EXPECT_EQ(s.on_bottom, 2);
+  EXPECT_EQ(s.on_top, 1);
+}
+
 TEST(Statistics, NothingHasNoFigures) {
   EXPECT_EQ(measure_packing(Container(ContainerShape::disc, 0, 0, 1), {}).count, 0u);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Job: read_data_folder(): manifest.toml and the curves it names. The format is documented in data_folder.md.
+// Job: read_data_folder(): manifest.toml and the curves it names. The format is documented in
+// data_folder.md.
 #include <algorithm>
 
 #include "base/table_file.h"
@@ -15,16 +16,22 @@ namespace fs = std::filesystem;
 
 namespace {
 
-MeasuredCurve read_measured_curve(const fs::path &folder, const std::string &name, const Measurement &series) {
+MeasuredCurve read_measured_curve(const fs::path &folder, const std::string &name,
+                                  const Measurement &series) {
   const fs::path file = folder / name;
   const std::string extension = file.extension().string();
   if (extension != ".csv" && extension != ".tsv")
-    throw UserError({file.string(), 0, 0}, "'" + extension + "' isn't a curve file's ending; allowed: .csv (commas), .tsv (tabs)");
+    throw UserError(
+        {file.string(), 0, 0},
+        "'" + extension + "' isn't a curve file's ending; allowed: .csv (commas), .tsv (tabs)");
   const TableFile table(file, extension == ".csv" ? ',' : '\t');
   const TableFile::HeaderLine *units_line = table.find("units");
-  if (!units_line) throw UserError(table.place(table.find("names")->line), "a '# units:' line is needed below the names, one unit a column (1 for none)");
+  if (!units_line)
+    throw UserError(table.place(table.find("names")->line),
+                    "a '# units:' line is needed below the names, one unit a column (1 for none)");
   if (table.rows().size() < 2) throw UserError(table.place(0), "a curve needs at least two rows");
-  if (!table.last_line_is_whole()) throw UserError(table.place(0), "the last line has no line break: the file may be cut off");
+  if (!table.last_line_is_whole())
+    throw UserError(table.place(0), "the last line has no line break: the file may be cut off");
 
   for (const std::string *column : {&series.x, &series.y})
     if (!column->empty()) table.column_index(*column);  // throws when absent
@@ -46,7 +53,8 @@ MeasuredCurve read_measured_curve(const fs::path &folder, const std::string &nam
   curve.columns.assign(curve.names.size(), {});
   for (const TableFile::Row &row : table.rows())
     for (std::size_t i = 0; i < units.size(); ++i)
-      curve.columns[i].push_back(table.number(row, i) * units[i].multiply / units[i].divide + units[i].offset);
+      curve.columns[i].push_back(table.number(row, i) * units[i].multiply / units[i].divide +
+                                 units[i].offset);
   return curve;
 }
 
@@ -66,7 +74,8 @@ std::map<std::string, double> read_conditions(TomlTable &series) {
       table.error(name, error.text());
       continue;
     }
-    if (const auto value = quantity_of(*node, unit, table.place(name), table.errors())) conditions[name] = *value;
+    if (const auto value = quantity_of(*node, unit, table.place(name), table.errors()))
+      conditions[name] = *value;
   }
   return conditions;
 }
@@ -88,7 +97,9 @@ void read_series(TomlTable &table, DataFolder &data) {
     try {
       MeasuredCurve curve = read_measured_curve(data.folder, file, series);
       for (const MeasuredCurve &other : series.replicates)
-        if (other.file == file) throw UserError(table.place("files"), "the file '" + file + "' stands twice in series '" + series.name + "'");
+        if (other.file == file)
+          throw UserError(table.place("files"),
+                          "the file '" + file + "' stands twice in series '" + series.name + "'");
       series.replicates.push_back(std::move(curve));
     } catch (const UserError &error) {
       errors.add(error);
@@ -114,7 +125,9 @@ DataFolder read_data_folder(const fs::path &folder) {
   const toml::table root = parse_toml(read_text_file(file), file);
   ErrorCollector errors;
   TomlTable top(root, "a data manifest", file, errors);
-  if (top.whole("schema", 1, 0, 1000000, true) != 1) top.error("schema", "'schema' must be 1: this version of bondlab reads data manifests of schema 1");
+  if (top.whole("schema", 1, 0, 1000000, true) != 1)
+    top.error("schema",
+              "'schema' must be 1: this version of bondlab reads data manifests of schema 1");
   if (const toml::table *entry = top.table("data")) {
     TomlTable table(*entry, "[data]", file, errors);
     data.title = table.text("title");

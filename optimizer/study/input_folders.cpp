@@ -44,7 +44,8 @@ std::vector<std::string> known_tests() {
   std::error_code error;
   for (const fs::path &inputs : input_folders())
     for (const fs::directory_entry &entry : fs::directory_iterator(inputs, error))
-      if (fs::is_regular_file(entry.path() / "test.toml", error)) names.push_back(entry.path().filename().string());
+      if (fs::is_regular_file(entry.path() / "test.toml", error))
+        names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;

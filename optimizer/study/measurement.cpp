@@ -23,20 +23,25 @@ static double interpolate(const std::vector<double> &x, const std::vector<double
   return y[i - 1] + share * (y[i] - y[i - 1]);
 }
 
-Envelope make_envelope(const std::vector<MeasuredCurve> &replicates, const std::string &x, const std::string &y, int points) {
+Envelope make_envelope(const std::vector<MeasuredCurve> &replicates, const std::string &x,
+                       const std::string &y, int points) {
   if (replicates.empty()) throw UserError("there are no curves to take the mean of");
   double lower = -HUGE_VAL, upper = HUGE_VAL;
   for (const MeasuredCurve &curve : replicates) {
     const std::vector<double> &column = curve.column(x);
     for (std::size_t i = 1; i < column.size(); ++i)
       if (column[i] <= column[i - 1])
-        throw UserError({curve.file, 0, 0}, "the column '" + x + "' must increase from row to row; row " + std::to_string(i + 1) + " has " + canonical_number(column[i]) +
-                                                " after " + canonical_number(column[i - 1]));
+        throw UserError({curve.file, 0, 0},
+                        "the column '" + x + "' must increase from row to row; row " +
+                            std::to_string(i + 1) + " has " + canonical_number(column[i]) +
+                            " after " + canonical_number(column[i - 1]));
     if (column.size() < 2) throw UserError({curve.file, 0, 0}, "a curve needs at least two rows");
     lower = std::max(lower, column.front());
     upper = std::min(upper, column.back());
   }
-  if (lower >= upper) throw UserError("the replicates have no common range of '" + x + "': it would run from " + canonical_number(lower) + " to " + canonical_number(upper));
+  if (lower >= upper)
+    throw UserError("the replicates have no common range of '" + x + "': it would run from " +
+                    canonical_number(lower) + " to " + canonical_number(upper));
 
   Envelope envelope;
   const double count = static_cast<double>(replicates.size());

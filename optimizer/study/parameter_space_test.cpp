@@ -21,23 +21,28 @@ Parameter parameter(double lower, double upper, Scale scale) {
   return p;
 }
 
-ParameterSpace one(double lower, double upper, Scale scale) { return ParameterSpace({parameter(lower, upper, scale)}); }
+ParameterSpace one(double lower, double upper, Scale scale) {
+  return ParameterSpace({parameter(lower, upper, scale)});
+}
 
 double to_x(const ParameterSpace &space, double z) { return space.to_physical({{z}}).x[0]; }
 double to_z(const ParameterSpace &space, double x) { return space.to_transformed({{x}}).z[0]; }
 
 TEST(ParameterSpace, RoundTripIsExactToAFewUnitsInTheLastPlace) {
-  // Property: physical -> transformed -> physical, for random bounds over 12 decades, random scales and random points
-  // down to 1e-12 of the range from either bound. What z's own rounding allows is |dx/dz| * ulp(z), and a few ulp of x
-  // (of the larger bound on a linear scale) for the operations of the two ways.
+  // Property: physical -> transformed -> physical, for random bounds over 12 decades, random scales
+  // and random points down to 1e-12 of the range from either bound. What z's own rounding allows is
+  // |dx/dz| * ulp(z), and a few ulp of x (of the larger bound on a linear scale) for the operations
+  // of the two ways.
   const double ulp = std::numeric_limits<double>::epsilon();
   RandomStream random(42);
   double worst = 0;
   for (int i = 0; i < 20000; ++i) {
     const bool log_scale = random.index(2) == 1;
-    double a = std::pow(10.0, random.uniform(-6, 12)), b = a * (1 + std::pow(10.0, random.uniform(-1, 3)));
+    double a = std::pow(10.0, random.uniform(-6, 12)),
+           b = a * (1 + std::pow(10.0, random.uniform(-1, 3)));
     if (!log_scale && random.index(2)) a = -a;
-    const ParameterSpace space = one(std::min(a, b), std::max(a, b), log_scale ? Scale::logarithmic : Scale::linear);
+    const ParameterSpace space =
+        one(std::min(a, b), std::max(a, b), log_scale ? Scale::logarithmic : Scale::linear);
     const double from_end = std::pow(10.0, random.uniform(-12, 0)) * 0.5;
     const double x = space.from_unit_cube({random.index(2) ? from_end : 1 - from_end}).x[0];
     const double z = to_z(space, x), back = to_x(space, z);
@@ -49,10 +54,12 @@ TEST(ParameterSpace, RoundTripIsExactToAFewUnitsInTheLastPlace) {
 }
 
 TEST(ParameterSpace, TransformedValuesComeBackToo) {
-  const ParameterSpace linear = one(0.1, 0.9, Scale::linear), logarithmic = one(15e9, 45e9, Scale::logarithmic);
+  const ParameterSpace linear = one(0.1, 0.9, Scale::linear),
+                       logarithmic = one(15e9, 45e9, Scale::logarithmic);
   for (double z = -12; z <= 12; z += 0.37) {
     EXPECT_NEAR(to_z(linear, to_x(linear, z)), z, 1e-15 * std::exp(std::abs(z)) + 1e-14) << z;
-    EXPECT_NEAR(to_z(logarithmic, to_x(logarithmic, z)), z, 1e-15 * std::exp(std::abs(z)) + 1e-14) << z;
+    EXPECT_NEAR(to_z(logarithmic, to_x(logarithmic, z)), z, 1e-15 * std::exp(std::abs(z)) + 1e-14)
+        << z;
   }
 }
 
@@ -101,7 +108,8 @@ TEST(ParameterSpace, AtBoundTellsTheSide) {
   EXPECT_EQ(linear.at_bound(0, 1.1), BoundSide::none);
   EXPECT_EQ(linear.at_bound(0, 99.1), BoundSide::upper);
   EXPECT_EQ(linear.at_bound(0, 80, 0.25), BoundSide::upper);
-  const ParameterSpace logarithmic = one(1, 1e4, Scale::logarithmic);  // 1 % of the range is a factor 1.0965
+  const ParameterSpace logarithmic =
+      one(1, 1e4, Scale::logarithmic);  // 1 % of the range is a factor 1.0965
   EXPECT_EQ(logarithmic.at_bound(0, 1.09), BoundSide::lower);
   EXPECT_EQ(logarithmic.at_bound(0, 1.10), BoundSide::none);
   EXPECT_EQ(logarithmic.at_bound(0, 9200), BoundSide::upper);
@@ -109,7 +117,8 @@ TEST(ParameterSpace, AtBoundTellsTheSide) {
 
 TEST(ParameterSpace, UnitCubeAndUnitPositionAreInverse) {
   const ParameterSpace space = one(15e9, 45e9, Scale::logarithmic);
-  for (const double u : {0.0, 0.1, 0.5, 0.93, 1.0}) EXPECT_NEAR(space.unit_position(0, space.from_unit_cube({u}).x[0]), u, 1e-14);
+  for (const double u : {0.0, 0.1, 0.5, 0.93, 1.0})
+    EXPECT_NEAR(space.unit_position(0, space.from_unit_cube({u}).x[0]), u, 1e-14);
 }
 
 TEST(ParameterSpace, RefusesWhatIsOutsideByName) {

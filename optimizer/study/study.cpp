@@ -10,9 +10,12 @@ namespace bondlab {
 
 std::string to_string(SpecimenShape shape) {
   switch (shape) {
-    case SpecimenShape::rectangle: return "rectangle";
-    case SpecimenShape::disc: return "disc";
-    case SpecimenShape::cylinder: return "cylinder";
+    case SpecimenShape::rectangle:
+      return "rectangle";
+    case SpecimenShape::disc:
+      return "disc";
+    case SpecimenShape::cylinder:
+      return "cylinder";
   }
   return "";
 }
@@ -20,22 +23,35 @@ std::string to_string(SpecimenShape shape) {
 std::string DeckValue::text() const { return is_word() ? word : canonical_number(number); }
 
 template <class Entry>
-static const Entry &by_name(const std::vector<Entry> &entries, const std::string &name, const char *kind, const std::filesystem::path &file) {
+static const Entry &by_name(const std::vector<Entry> &entries, const std::string &name,
+                            const char *kind, const std::filesystem::path &file) {
   std::vector<std::string> names;
   for (const Entry &entry : entries) {
     if (entry.name == name) return entry;
     names.push_back(entry.name);
   }
-  throw UserError({file.string(), 0, 0}, std::string("the study has no ") + kind + " '" + name + "'; it has: " + join(names));
+  throw UserError({file.string(), 0, 0}, std::string("the study has no ") + kind + " '" + name +
+                                             "'; it has: " + join(names));
 }
 
-const SpecimenEntry &Study::specimen(const std::string &name) const { return by_name(specimens, name, "specimen", file); }
-const TestEntry &Study::test(const std::string &name) const { return by_name(tests, name, "test", file); }
-const Parameter &Study::parameter(const std::string &name) const { return by_name(parameters, name, "parameter", file); }
-const Target &Study::target(const std::string &name) const { return by_name(targets, name, "target", file); }
-const FitEntry &Study::fit(const std::string &name) const { return by_name(fits, name, "fit", file); }
+const SpecimenEntry &Study::specimen(const std::string &name) const {
+  return by_name(specimens, name, "specimen", file);
+}
+const TestEntry &Study::test(const std::string &name) const {
+  return by_name(tests, name, "test", file);
+}
+const Parameter &Study::parameter(const std::string &name) const {
+  return by_name(parameters, name, "parameter", file);
+}
+const Target &Study::target(const std::string &name) const {
+  return by_name(targets, name, "target", file);
+}
+const FitEntry &Study::fit(const std::string &name) const {
+  return by_name(fits, name, "fit", file);
+}
 
-std::map<std::string, double> deck_variables(const Study &study, const std::string &test, const std::vector<double> &values) {
+std::map<std::string, double> deck_variables(const Study &study, const std::string &test,
+                                             const std::vector<double> &values) {
   assert(values.size() == study.parameters.size());
   const TestEntry &entry = study.test(test);
   std::map<std::string, double> variables;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // Job: a study as data: what is tested, what may vary, what was measured, what is to be fitted.
-// Method: read_study() reads the TOML file, the test.toml of every virtual test it names and the data folder, checks all
-//   of it, and either returns a Study that needs no further checks or throws UserErrors with everything that is wrong.
-//   Nothing is run or written. The format is documented in study.md.
+// Method: read_study() reads the TOML file, the test.toml of every virtual test it names and the
+// data folder, checks all
+//   of it, and either returns a Study that needs no further checks or throws UserErrors with
+//   everything that is wrong. Nothing is run or written. The format is documented in study.md.
 // Units: every number here is in SI; `unit` members say only how a person wants it shown.
-// Failure: UserErrors (StudyErrors), each with file:line:column, the value given and the values allowed.
+// Failure: UserErrors (StudyErrors), each with file:line:column, the value given and the values
+// allowed.
 #pragma once
 
 #include <cstdint>
@@ -29,14 +31,15 @@ enum class Scale { linear, logarithmic };
 struct SpecimenEntry {
   std::string name;
   SpecimenShape shape = SpecimenShape::rectangle;
-  double width = 0;      // m; rectangle
-  double height = 0;     // m; rectangle, cylinder (axis z; the length of a 3D Brazilian disc)
-  double diameter = 0;   // m; disc, cylinder
-  double thickness = 1;  // m; of 2D specimens (rectangle, disc): mass pi R^2 t rho, forces in newtons
-  double r_min = 0;      // m; smallest particle radius
-  double r_ratio = 1.66; // largest over smallest radius
+  double width = 0;     // m; rectangle
+  double height = 0;    // m; rectangle, cylinder (axis z; the length of a 3D Brazilian disc)
+  double diameter = 0;  // m; disc, cylinder
+  double thickness =
+      1;             // m; of 2D specimens (rectangle, disc): mass pi R^2 t rho, forces in newtons
+  double r_min = 0;  // m; smallest particle radius
+  double r_ratio = 1.66;          // largest over smallest radius
   std::string sizes = "uniform";  // a size distribution of the generator
-  double density = 2600; // kg/m3; of the particles
+  double density = 2600;          // kg/m3; of the particles
   std::uint64_t seed = 1;
   Place place;
   int dimensions() const { return shape == SpecimenShape::cylinder ? 3 : 2; }
@@ -56,15 +59,15 @@ struct TestEntry {
   std::string test;      // as written: folder in inputs/, or a path from the study file
   std::string specimen;  // name of a SpecimenEntry
   int ranks = 1;
-  double wall_limit = 0;                        // s
-  std::map<std::string, DeckValue> variables;   // fixed deck variables
+  double wall_limit = 0;                       // s
+  std::map<std::string, DeckValue> variables;  // fixed deck variables
   TestDefinition definition;
   Place place;
 };
 
 struct Parameter {
   std::string name;
-  std::string unit;  // to show it in
+  std::string unit;             // to show it in
   double lower = 0, upper = 0;  // SI
   std::optional<double> start;  // SI, inside the bounds; absent: the middle in transformed space
   Scale scale = Scale::linear;
@@ -95,11 +98,12 @@ struct FitOptions {
   int lhs_points = 12;
   int max_iterations = 8;
   std::uint64_t seed = 1;
-  double difference_step = 0.03;  // relative to a parameter's value; at least 0.02, below it is noise
-  double prior_sd = 1.5;          // of the prior in transformed (logit) space, centred at 0
-  int packings = 3;               // other packings the result is checked on
-  int jobs = 0;                   // runs at a time; 0: cores / ranks
-  int max_failed = 3;             // forward runs that may fail before a fit gives up
+  double difference_step =
+      0.03;               // relative to a parameter's value; at least 0.02, below it is noise
+  double prior_sd = 1.5;  // of the prior in transformed (logit) space, centred at 0
+  int packings = 3;       // other packings the result is checked on
+  int jobs = 0;           // runs at a time; 0: cores / ranks
+  int max_failed = 3;     // forward runs that may fail before a fit gives up
 };
 
 struct Assumption {
@@ -109,8 +113,8 @@ struct Assumption {
 
 struct Study {
   std::string name, title;
-  std::filesystem::path file;       // as given by the user
-  std::string source_text;          // the file, for the report
+  std::filesystem::path file;  // as given by the user
+  std::string source_text;     // the file, for the report
   std::vector<SpecimenEntry> specimens;
   std::vector<TestEntry> tests;
   std::vector<Parameter> parameters;
@@ -131,8 +135,10 @@ struct Study {
 
 Study read_study(const std::filesystem::path &file);
 
-// The deck variables that the parameters set in one test: values in the order of study.parameters, SI. Variables the test
-// doesn't have are left out, so that one parameter list serves tests with different decks.
-std::map<std::string, double> deck_variables(const Study &study, const std::string &test, const std::vector<double> &values);
+// The deck variables that the parameters set in one test: values in the order of study.parameters,
+// SI. Variables the test doesn't have are left out, so that one parameter list serves tests with
+// different decks.
+std::map<std::string, double> deck_variables(const Study &study, const std::string &test,
+                                             const std::vector<double> &values);
 
 }  // namespace bondlab

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Every planted error of testdata/errors gives exactly the messages that stand beside it, with file, line and column.
+// Every planted error of testdata/errors gives exactly the messages that stand beside it, with
+// file, line and column.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +23,8 @@ const fs::path kTestdata = fs::path(__FILE__).parent_path() / "testdata";
 
 struct PlantedError {
   std::string title, file = "good.toml";
-  std::vector<std::pair<std::string, std::vector<std::string>>> edits;  // line taken out ("" appends), lines put in
+  std::vector<std::pair<std::string, std::vector<std::string>>>
+      edits;  // line taken out ("" appends), lines put in
   std::vector<std::string> messages;
 };
 
@@ -51,7 +53,8 @@ std::vector<PlantedError> planted_errors() {
       }
     }
   }
-  std::sort(cases.begin(), cases.end(), [](const PlantedError &a, const PlantedError &b) { return a.title < b.title; });
+  std::sort(cases.begin(), cases.end(),
+            [](const PlantedError &a, const PlantedError &b) { return a.title < b.title; });
   return cases;
 }
 
@@ -69,7 +72,8 @@ class PlantedErrors : public testing::TestWithParam<PlantedError> {
     for (std::string line; std::getline(lines, line);) {
       std::size_t hit = planted.edits.size();
       for (std::size_t i = 0; i < planted.edits.size() && hit == planted.edits.size(); ++i)
-        if (!applied[i] && !planted.edits[i].first.empty() && line == planted.edits[i].first) hit = i;
+        if (!applied[i] && !planted.edits[i].first.empty() && line == planted.edits[i].first)
+          hit = i;
       if (hit == planted.edits.size()) {
         edited << line << '\n';
         continue;
@@ -87,7 +91,8 @@ class PlantedErrors : public testing::TestWithParam<PlantedError> {
   }
 
   std::string without_folder(std::string text) const {
-    for (std::size_t at; (at = text.find(folder_.path().string() + "/")) != std::string::npos;) text.erase(at, folder_.path().string().size() + 1);
+    for (std::size_t at; (at = text.find(folder_.path().string() + "/")) != std::string::npos;)
+      text.erase(at, folder_.path().string().size() + 1);
     return text;
   }
 
@@ -106,16 +111,20 @@ TEST_P(PlantedErrors, IsReportedWithItsPlaceAndWhatIsAllowed) {
   }
   const std::string expected = join(planted.messages, "\n");
   if (expected.back() == '*')  // the rest of the sentence belongs to another room
-    EXPECT_EQ(messages.substr(0, expected.size() - 1), expected.substr(0, expected.size() - 1)) << planted.title << "\n" << messages;
+    EXPECT_EQ(messages.substr(0, expected.size() - 1), expected.substr(0, expected.size() - 1))
+        << planted.title << "\n"
+        << messages;
   else
     EXPECT_EQ(messages, expected) << planted.title;
 }
 
-INSTANTIATE_TEST_SUITE_P(Planted, PlantedErrors, testing::ValuesIn(planted_errors()), [](const auto &info) {
-  std::string name;
-  for (const char c : info.param.title) name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Planted, PlantedErrors, testing::ValuesIn(planted_errors()),
+                         [](const auto &info) {
+                           std::string name;
+                           for (const char c : info.param.title)
+                             name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace bondlab

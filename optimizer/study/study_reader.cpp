@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Job: read_study() and the sections that say what is tested: [study], [[specimens]], [[tests]], [[assumptions]], [data].
+// Job: read_study() and the sections that say what is tested: [study], [[specimens]], [[tests]],
+// [[assumptions]], [data].
 #include <algorithm>
 
 #include "base/table_file.h"
@@ -14,10 +15,11 @@ namespace bondlab {
 
 namespace fs = std::filesystem;
 
-std::string unknown_name(const std::string &complaint, const std::string &name, const std::vector<std::string> &known) {
+std::string unknown_name(const std::string &complaint, const std::string &name,
+                         const std::vector<std::string> &known) {
   const std::string near = nearest_word(name, known);
-  return complaint + " '" + name + "'" + (near.empty() ? "" : " (did you mean '" + near + "'?)") + "; known: " +
-         (known.empty() ? "none" : join(known));
+  return complaint + " '" + name + "'" + (near.empty() ? "" : " (did you mean '" + near + "'?)") +
+         "; known: " + (known.empty() ? "none" : join(known));
 }
 
 namespace {
@@ -33,28 +35,38 @@ void read_study_table(TomlTable &top, Study &study) {
 }
 
 // A length that must be above zero.
-double positive_length(TomlTable &table, const std::string &key, bool required, double fallback = 0) {
+double positive_length(TomlTable &table, const std::string &key, bool required,
+                       double fallback = 0) {
   const std::optional<double> value = table.quantity(key, "m", required);
   if (!value) return fallback;
-  if (*value <= 0) table.error(key, "'" + key + "' can't be " + table.given(key) + "; it must be above 0 m");
+  if (*value <= 0)
+    table.error(key, "'" + key + "' can't be " + table.given(key) + "; it must be above 0 m");
   return *value;
 }
 
 void read_dimensions(TomlTable &table, SpecimenEntry &specimen) {
-  const bool rectangle = specimen.shape == SpecimenShape::rectangle, disc = specimen.shape == SpecimenShape::disc;
-  const std::vector<std::string> own = rectangle ? std::vector<std::string>{"width", "height", "thickness"}
-                                       : disc    ? std::vector<std::string>{"diameter", "thickness"}
-                                                 : std::vector<std::string>{"diameter", "height"};
+  const bool rectangle = specimen.shape == SpecimenShape::rectangle,
+             disc = specimen.shape == SpecimenShape::disc;
+  const std::vector<std::string> own =
+      rectangle ? std::vector<std::string>{"width", "height", "thickness"}
+      : disc    ? std::vector<std::string>{"diameter", "thickness"}
+                : std::vector<std::string>{"diameter", "height"};
   const struct {
     const char *key;
     double &value;
-  } lengths[] = {{"width", specimen.width}, {"height", specimen.height}, {"diameter", specimen.diameter}, {"thickness", specimen.thickness}};
+  } lengths[] = {{"width", specimen.width},
+                 {"height", specimen.height},
+                 {"diameter", specimen.diameter},
+                 {"thickness", specimen.thickness}};
   for (const auto &length : lengths) {
     const bool belongs = std::find(own.begin(), own.end(), length.key) != own.end();
     const bool optional = std::string(length.key) == "thickness";
-    if (belongs || table.has(length.key)) length.value = positive_length(table, length.key, belongs && !optional, length.value);
+    if (belongs || table.has(length.key))
+      length.value = positive_length(table, length.key, belongs && !optional, length.value);
     if (!belongs && table.has(length.key))
-      table.errors().add(table.key_place(length.key), "a " + to_string(specimen.shape) + " has no '" + length.key + "'; it has: " + join(own));
+      table.errors().add(
+          table.key_place(length.key),
+          "a " + to_string(specimen.shape) + " has no '" + length.key + "'; it has: " + join(own));
   }
 }
 
@@ -63,7 +75,8 @@ void check_with_generator(TomlTable &table, const SpecimenEntry &specimen) {
   try {
     check_request(specimen_request(specimen, 0));
   } catch (const UserErrors &several) {
-    for (const UserError &error : several.errors()) table.errors().add(specimen.place, "specimen '" + specimen.name + "': " + error.text());
+    for (const UserError &error : several.errors())
+      table.errors().add(specimen.place, "specimen '" + specimen.name + "': " + error.text());
   } catch (const UserError &error) {
     table.errors().add(specimen.place, "specimen '" + specimen.name + "': " + error.text());
   }
@@ -79,12 +92,15 @@ void read_specimens(TomlTable &top, Study &study) {
     specimen.place = table.place();
     specimen.name = read_name(table, study.specimens);
     const std::string shape = table.choice("shape", {"rectangle", "disc", "cylinder"}, true);
-    specimen.shape = shape == "disc" ? SpecimenShape::disc : shape == "cylinder" ? SpecimenShape::cylinder : SpecimenShape::rectangle;
+    specimen.shape = shape == "disc"       ? SpecimenShape::disc
+                     : shape == "cylinder" ? SpecimenShape::cylinder
+                                           : SpecimenShape::rectangle;
     read_dimensions(table, specimen);
     specimen.r_min = positive_length(table, "r_min", true);
     specimen.r_ratio = table.quantity("r_ratio", "1").value_or(specimen.r_ratio);
     if (specimen.r_ratio < 1)
-      table.error("r_ratio", "'r_ratio' (largest over smallest radius) can't be " + canonical_number(specimen.r_ratio) + "; it must be at least 1");
+      table.error("r_ratio", "'r_ratio' (largest over smallest radius) can't be " +
+                                 canonical_number(specimen.r_ratio) + "; it must be at least 1");
     specimen.density = table.quantity("density", "kg/m3").value_or(specimen.density);
     if (specimen.density <= 0) table.error("density", "'density' must be above 0 kg/m3");
     if (table.has("sizes")) specimen.sizes = table.text("sizes", true);
@@ -98,19 +114,23 @@ void read_specimens(TomlTable &top, Study &study) {
 namespace {
 
 void read_test_variables(TomlTable &table, const toml::table &entries, TestEntry &test) {
-  TomlTable variables(entries, "the variables of test '" + test.name + "'", table.file(), table.errors());
+  TomlTable variables(entries, "the variables of test '" + test.name + "'", table.file(),
+                      table.errors());
   std::vector<std::string> known;
   for (const auto &[name, definition] : test.definition.variables) known.push_back(name);
   for (const auto &[name, node] : variables.entries()) {
     const auto &reserved = variables_from_specimen();
     const auto found = test.definition.variables.find(name);
     if (std::find(reserved.begin(), reserved.end(), name) != reserved.end()) {
-      variables.errors().add(variables.key_place(name), "'" + name + "' is filled in from the specimen and can't be set here");
+      variables.errors().add(variables.key_place(name),
+                             "'" + name + "' is filled in from the specimen and can't be set here");
       continue;
     }
     if (found == test.definition.variables.end()) {
       if (!test.definition.variables.empty())
-        variables.errors().add(variables.key_place(name), unknown_name("the test '" + test.test + "' has no variable", name, known));
+        variables.errors().add(
+            variables.key_place(name),
+            unknown_name("the test '" + test.test + "' has no variable", name, known));
       continue;
     }
     const DeckVariable &variable = found->second;
@@ -119,29 +139,37 @@ void read_test_variables(TomlTable &table, const toml::table &entries, TestEntry
     if (!variable.choices.empty()) {
       value.word = variables.choice(name, variable.choices);
     } else {
-      const std::optional<double> number = quantity_of(*node, variable.unit, variables.place(name), variables.errors());
+      const std::optional<double> number =
+          quantity_of(*node, variable.unit, variables.place(name), variables.errors());
       if (!number) continue;
       value.number = *number;
       const std::string why = why_not_allowed(variable, *number);
-      if (!why.empty()) variables.error(name, "'" + name + "' can't be " + shown(*node) + "; " + why);
+      if (!why.empty())
+        variables.error(name, "'" + name + "' can't be " + shown(*node) + "; " + why);
     }
     test.variables[name] = value;
   }
 }
 
-// The deck's dimension must be the specimen's; a disc for a compression deck would only fail in the engine.
+// The deck's dimension must be the specimen's; a disc for a compression deck would only fail in the
+// engine.
 void check_specimen_fits(TomlTable &table, const TestEntry &test, const SpecimenEntry &specimen) {
   const auto &shapes = test.definition.shapes;
-  if (!shapes.empty() && std::find(shapes.begin(), shapes.end(), to_string(specimen.shape)) == shapes.end())
-    table.error("specimen", "the specimen '" + specimen.name + "' is a " + to_string(specimen.shape) + "; the test '" + test.test + "' takes: " + join(shapes));
+  if (!shapes.empty() &&
+      std::find(shapes.begin(), shapes.end(), to_string(specimen.shape)) == shapes.end())
+    table.error("specimen", "the specimen '" + specimen.name + "' is a " +
+                                to_string(specimen.shape) + "; the test '" + test.test +
+                                "' takes: " + join(shapes));
   const auto in_deck = test.definition.deck_defaults.find("dim");
   if (in_deck == test.definition.deck_defaults.end()) return;
   const auto set = test.variables.find("dim");
   const std::string dim = set == test.variables.end() ? in_deck->second : set->second.text();
   if (dim != std::to_string(specimen.dimensions()))
     table.errors().add(table.has("variables") ? table.place("variables") : table.place("specimen"),
-                       "the specimen '" + specimen.name + "' (" + to_string(specimen.shape) + ") needs dim = " + std::to_string(specimen.dimensions()) +
-                           ", the test has dim = " + dim + (set == test.variables.end() ? " (the deck's default)" : ""));
+                       "the specimen '" + specimen.name + "' (" + to_string(specimen.shape) +
+                           ") needs dim = " + std::to_string(specimen.dimensions()) +
+                           ", the test has dim = " + dim +
+                           (set == test.variables.end() ? " (the deck's default)" : ""));
 }
 
 }  // namespace
@@ -155,13 +183,16 @@ void read_tests(TomlTable &top, Study &study) {
     test.test = table.text("test", true);
     if (!test.test.empty()) {
       const fs::path folder = find_test_folder(test.test, study.file.parent_path());
-      const auto read_before = std::find_if(study.tests.begin(), study.tests.end(), [&](const TestEntry &other) { return other.definition.folder == folder; });
+      const auto read_before =
+          std::find_if(study.tests.begin(), study.tests.end(),
+                       [&](const TestEntry &other) { return other.definition.folder == folder; });
       if (!folder.empty() && read_before != study.tests.end())
         test.definition = read_before->definition;  // so that its errors aren't reported twice
       else if (!folder.empty())
         test.definition = read_test_definition(folder, top.errors());
       else if (test.test.find('/') != std::string::npos)
-        table.error("test", "there is no folder '" + (study.file.parent_path() / test.test).string() + "'");
+        table.error("test",
+                    "there is no folder '" + (study.file.parent_path() / test.test).string() + "'");
       else
         table.error("test", unknown_name("there is no virtual test", test.test, known_tests()));
     }
@@ -169,12 +200,14 @@ void read_tests(TomlTable &top, Study &study) {
     test.wall_limit = table.quantity("wall_limit", "s").value_or(600);
     if (test.wall_limit <= 0) table.error("wall_limit", "'wall_limit' must be above 0 s");
     test.specimen = table.text("specimen", true);
-    if (const toml::table *variables = table.table("variables")) read_test_variables(table, *variables, test);
+    if (const toml::table *variables = table.table("variables"))
+      read_test_variables(table, *variables, test);
     const SpecimenEntry *specimen = find_entry(study.specimens, test.specimen);
     if (specimen)
       check_specimen_fits(table, test, *specimen);
     else if (!test.specimen.empty())
-      table.error("specimen", unknown_name("there is no specimen", test.specimen, names_of(study.specimens)));
+      table.error("specimen",
+                  unknown_name("there is no specimen", test.specimen, names_of(study.specimens)));
     table.finish();
     study.tests.push_back(test);
   }
@@ -214,7 +247,10 @@ void read_data(TomlTable &top, Study &study) {
   }
   for (const Measurement &series : study.data->measurements)
     if (!series.test.empty() && !find_entry(study.tests, series.test))
-      top.errors().add(series.place, "series '" + series.name + "': " + unknown_name("there is no test", series.test, names_of(study.tests)) + " (in " + study.file.string() + ")");
+      top.errors().add(series.place,
+                       "series '" + series.name + "': " +
+                           unknown_name("there is no test", series.test, names_of(study.tests)) +
+                           " (in " + study.file.string() + ")");
 }
 
 }  // namespace
@@ -227,7 +263,8 @@ Study read_study(const fs::path &file) {
   ErrorCollector errors;
   TomlTable top(root, "the study file", file.string(), errors);
   if (top.whole("schema", 1, 0, 1000000, true) != 1)
-    top.error("schema", "'schema' can't be " + shown(*root.get("schema")) + "; this version of bondlab reads schema 1");
+    top.error("schema", "'schema' can't be " + shown(*root.get("schema")) +
+                            "; this version of bondlab reads schema 1");
   read_study_table(top, study);
   read_specimens(top, study);
   read_tests(top, study);

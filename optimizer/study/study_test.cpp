@@ -45,7 +45,8 @@ TEST(ReadStudy, KeepsEverythingInSi) {
   EXPECT_EQ(parameter.upper, 45e9);
   EXPECT_EQ(parameter.scale, Scale::logarithmic);
   EXPECT_EQ(parameter.sets, (std::vector<std::string>{"E_c", "E_b"}));
-  EXPECT_EQ(study.parameter("sigma_c").sets, (std::vector<std::string>{"sigma_c"})) << "a parameter sets its namesake";
+  EXPECT_EQ(study.parameter("sigma_c").sets, (std::vector<std::string>{"sigma_c"}))
+      << "a parameter sets its namesake";
   EXPECT_EQ(study.target("E").value, 41.5e9);
   EXPECT_EQ(study.target("E").unit, "GPa");
   EXPECT_DOUBLE_EQ(study.target("E").sd, 0.03 * 41.5e9) << "a share of the value";
@@ -76,7 +77,8 @@ TEST(ReadStudy, ReadsTheDataFolderWithReplicatesAndTheirScatter) {
 
 TEST(ReadStudy, DeckVariablesFollowWhatTheParametersSet) {
   const auto variables = deck_variables(good_study(), "ucs", {30e9, 120e6});
-  EXPECT_EQ(variables, (std::map<std::string, double>{{"E_c", 30e9}, {"E_b", 30e9}, {"sigma_c", 120e6}}));
+  EXPECT_EQ(variables,
+            (std::map<std::string, double>{{"E_c", 30e9}, {"E_b", 30e9}, {"sigma_c", 120e6}}));
 }
 
 TEST(TestDefinition, LimitsAreInTheVariablesUnitAndTheDeckGetsItsOwn) {
@@ -117,7 +119,8 @@ TEST(ReadStudy, FindsATestByPathFromTheStudyFile) {
 
 TEST(SpecimenRequestOfAStudy, ThePackingShiftsTheSeedOnly) {
   const Study study = good_study();
-  const SpecimenRequest own = specimen_request(study.specimen("slab"), 0), third = specimen_request(study.specimen("slab"), 3);
+  const SpecimenRequest own = specimen_request(study.specimen("slab"), 0),
+                        third = specimen_request(study.specimen("slab"), 3);
   EXPECT_EQ(own.seed, 1u);
   EXPECT_EQ(third.seed, 4u);
   EXPECT_EQ(own.width, third.width);
@@ -140,7 +143,8 @@ TEST(MakeEnvelope, OfOneReplicateIsTheCurveWithoutScatter) {
 }
 
 TEST(MakeEnvelope, RefusesReplicatesWithoutCommonRange) {
-  EXPECT_THROW(make_envelope({curve_of({0, 1}, {0, 1}), curve_of({1, 2}, {0, 1})}, "x", "y"), UserError);
+  EXPECT_THROW(make_envelope({curve_of({0, 1}, {0, 1}), curve_of({1, 2}, {0, 1})}, "x", "y"),
+               UserError);
   EXPECT_THROW(make_envelope({curve_of({0, 1, 1}, {0, 1, 2})}, "x", "y"), UserError);
   EXPECT_THROW(make_envelope({curve_of({0}, {0})}, "x", "y"), UserError);
 }

@@ -13,7 +13,8 @@ namespace bondlab {
 
 namespace {
 
-// Every `variable NAME index DEFAULT` of a deck. Without a default LIGGGHTS itself refuses the line.
+// Every `variable NAME index DEFAULT` of a deck. Without a default LIGGGHTS itself refuses the
+// line.
 std::map<std::string, std::string> index_variables(const std::string &deck) {
   std::map<std::string, std::string> defaults;
   std::istringstream lines(deck);
@@ -21,7 +22,8 @@ std::map<std::string, std::string> index_variables(const std::string &deck) {
     std::istringstream words(line.substr(0, line.find('#')));
     std::string command, name, style, value;
     if (words >> command >> name >> style >> value && command == "variable" && style == "index") {
-      if (value.size() > 1 && (value.front() == '"' || value.front() == '\'') && value.back() == value.front())
+      if (value.size() > 1 && (value.front() == '"' || value.front() == '\'') &&
+          value.back() == value.front())
         value = value.substr(1, value.size() - 2);
       defaults.emplace(name, value);  // the engine keeps the first
     }
@@ -51,7 +53,8 @@ DeckVariable read_variable(const std::string &name, TomlTable table) {
 }  // namespace
 
 const std::vector<std::string> &variables_from_specimen() {
-  static const std::vector<std::string> names{"specimen", "width", "height", "diameter", "thickness"};
+  static const std::vector<std::string> names{"specimen", "width", "height", "diameter",
+                                              "thickness"};
   return names;
 }
 
@@ -89,19 +92,24 @@ TestDefinition read_test_definition(const std::filesystem::path &folder, ErrorCo
     TomlTable variables(*table, "[variables]", file, errors);
     for (const auto &[name, node] : variables.entries()) {
       if (!node->is_table()) {
-        errors.add(variables.place_of(*node), "variable '" + name + "' must be a table: [variables." + name + "] with unit = \"...\"");
+        errors.add(variables.place_of(*node), "variable '" + name +
+                                                  "' must be a table: [variables." + name +
+                                                  "] with unit = \"...\"");
         continue;
       }
       const auto &reserved = variables_from_specimen();
       if (std::find(reserved.begin(), reserved.end(), name) != reserved.end())
-        errors.add(variables.key_place(name), "'" + name + "' is filled in from the specimen and can't be declared here");
+        errors.add(variables.key_place(name),
+                   "'" + name + "' is filled in from the specimen and can't be declared here");
       else if (!definition.deck_defaults.empty() && !definition.deck_defaults.count(name))
-        errors.add(variables.key_place(name), "the deck has no line 'variable " + name + " index ...'");
+        errors.add(variables.key_place(name),
+                   "the deck has no line 'variable " + name + " index ...'");
       TomlTable variable(*node->as_table(), "[variables." + name + "]", file, errors);
       definition.variables[name] = read_variable(name, variable);
       definition.variables[name].place = variables.key_place(name);
       const auto default_value = definition.deck_defaults.find(name);
-      if (default_value != definition.deck_defaults.end()) definition.variables[name].default_text = default_value->second;
+      if (default_value != definition.deck_defaults.end())
+        definition.variables[name].default_text = default_value->second;
     }
   }
 
@@ -119,7 +127,9 @@ TestDefinition read_test_definition(const std::filesystem::path &folder, ErrorCo
     TomlTable responses(*table, "[responses]", file, errors);
     for (const auto &[name, node] : responses.entries()) {
       if (!node->is_table()) {
-        errors.add(responses.place_of(*node), "response '" + name + "' must be a table: [responses." + name + "] with unit and from");
+        errors.add(
+            responses.place_of(*node),
+            "response '" + name + "' must be a table: [responses." + name + "] with unit and from");
         continue;
       }
       TomlTable response(*node->as_table(), "[responses." + name + "]", file, errors);
@@ -139,9 +149,11 @@ TestDefinition read_test_definition(const std::filesystem::path &folder, ErrorCo
 
 double deck_number(const DeckVariable &variable, double value) {
   const double exact = from_si(value, variable.unit);
-  // 30 deg went to SI and comes back as 29.999999999999996: fifteen digits are what the user wrote, if they mean the same.
+  // 30 deg went to SI and comes back as 29.999999999999996: fifteen digits are what the user wrote,
+  // if they mean the same.
   char buffer[40];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, exact, std::chars_format::scientific, 14).ptr;
+  const auto end =
+      std::to_chars(buffer, buffer + sizeof buffer, exact, std::chars_format::scientific, 14).ptr;
   double rounded = exact;
   std::from_chars(buffer, end, rounded);
   return to_si(rounded, variable.unit) == value ? rounded : exact;
@@ -150,9 +162,12 @@ double deck_number(const DeckVariable &variable, double value) {
 std::string why_not_allowed(const DeckVariable &variable, double value) {
   if (!variable.choices.empty()) return "it takes a word: " + join(variable.choices);
   const auto shown = [&](double limit) { return format_quantity(limit, variable.unit, 6); };
-  if (variable.minimum && value <= *variable.minimum) return "it must be above " + shown(*variable.minimum);
-  if (variable.at_least && value < *variable.at_least) return "it must be at least " + shown(*variable.at_least);
-  if (variable.maximum && value > *variable.maximum) return "it must be at most " + shown(*variable.maximum);
+  if (variable.minimum && value <= *variable.minimum)
+    return "it must be above " + shown(*variable.minimum);
+  if (variable.at_least && value < *variable.at_least)
+    return "it must be at least " + shown(*variable.at_least);
+  if (variable.maximum && value > *variable.maximum)
+    return "it must be at most " + shown(*variable.maximum);
   return "";
 }
 
