@@ -16,6 +16,7 @@
 #include "force.h"
 #include "memory.h"
 #include "modify.h"
+#include "read_number.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -83,7 +84,7 @@ void AtomVecBondedSphere::settings(int narg, char **arg) {
       error->all(FLERR, text.c_str());
     }
     if (k + 1 >= narg) error->all(FLERR, "atom_style bonded/sphere: a keyword has no value");
-    const double value = force->numeric(FLERR, arg[k + 1]);
+    const double value = bondlab::read_number(arg[k + 1]);
     if (!(value > 0.0) || !std::isfinite(value)) {
       const std::string text = std::string("atom_style bonded/sphere: ") + arg[k] + " is " +
                                arg[k + 1] + ", it must be a positive number";

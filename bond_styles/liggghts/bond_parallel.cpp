@@ -12,6 +12,7 @@
 #include "error.h"
 #include "force.h"
 #include "memory.h"
+#include "read_number.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -41,7 +42,7 @@ void BondParallel::coeff(int narg, char **arg) {
 
   const auto value = [&](int k, const char *name, bool positive) {
     if (k >= narg) bad(std::string("bond_coeff for bond_style parallel: '") + name + "' has no value");
-    const double v = force->numeric(FLERR, arg[k]);
+    const double v = bondlab::read_number(arg[k]);
     if (!std::isfinite(v) || (positive ? !(v > 0.0) : v < 0.0))
       bad(std::string("bond_coeff for bond_style parallel: ") + name + " is " + arg[k] +
           ", it must be " + (positive ? "positive" : "0 or positive"));

@@ -16,6 +16,7 @@
 #include "force.h"
 #include "group.h"
 #include "neighbor.h"
+#include "read_number.h"
 
 using namespace LAMMPS_NS;
 
@@ -47,7 +48,7 @@ void CommandBondInstall::command(int narg, char **arg) {
 
   int mine;
   if (!strcmp(arg[1], "gap")) {
-    const double gap = force->numeric(FLERR, arg[2]);
+    const double gap = bondlab::read_number(arg[2]);
     if (!std::isfinite(gap) || gap < 0.0)
       bad(std::string("gap is ") + arg[2] + " m, it must be 0 or positive");
     mine = by_gap(gap, type);

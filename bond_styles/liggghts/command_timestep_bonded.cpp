@@ -2,10 +2,11 @@
 // Job: see command_timestep_bonded.h.
 //
 // Method: Gershgorin's theorem on M^-1 K, block by block, with rotations scaled by the radius. The
-// shear displacement of a touching pair is u_j - u_i - phi_i - phi_j, phi = R theta, so with k the
-// larger of normal and shear stiffness, k_s the shear one and k_b the larger of bending and twisting,
-//   translation of i:  sum of 2 k + 2 k_s                           over m_i
-//   rotation of i:     sum of 4 k_s + k_b (1/R_i^2 + 1/(R_i R_j))   over I_i/R_i^2
+// shear displacement of a pair is u_j - u_i - c (phi_i + phi_j), phi = R theta, c = d/(R_i + R_j), so
+// with k the larger of normal and shear stiffness, k_s the shear one and k_b the larger of bending
+// and twisting,
+//   translation of i:  sum of 2 k + 2 c k_s                                       over m_i
+//   rotation of i:     sum of 2 (c + c^2) k_s + k_b (1/R_i^2 + 1/(R_i R_j))       over I_i/R_i^2
 // bound omega^2 from above. A bound, so the step is safe; on packings it lies 10 to 30 % below the
 // true limit. Deterministic: sums run in order of tags, the maximum is exact.
 #include "command_timestep_bonded.h"
@@ -24,6 +25,7 @@
 #include "force.h"
 #include "pair.h"
 #include "neighbor.h"
+#include "read_number.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -45,8 +47,9 @@ double CommandTimestepBonded::frequency_bound(LAMMPS *lmp) {
       const int i = own[side];
       if (i >= nlocal) continue;
       const double ri = atom->radius[ends[side]], rj = atom->radius[ends[1 - side]];
-      move[i] += 2.0 * k + 2.0 * ks;
-      turn[i] += 4.0 * ks + kb * (1.0 / (ri * ri) + 1.0 / (ri * rj));
+      const double arm = t.state[BondBPM::REST][row] / (ri + rj);
+      move[i] += 2.0 * k + 2.0 * arm * ks;
+      turn[i] += 2.0 * arm * (1.0 + arm) * ks + kb * (1.0 / (ri * ri) + 1.0 / (ri * rj));
     }
   }
   double highest = 0.0, all = 0.0;
@@ -60,7 +63,7 @@ double CommandTimestepBonded::frequency_bound(LAMMPS *lmp) {
 
 void CommandTimestepBonded::command(int narg, char **arg) {
   if (narg != 1) error->all(FLERR, "timestep_bonded: expected `timestep_bonded SAFETY`, for example 0.8");
-  const double safety = force->numeric(FLERR, arg[0]);
+  const double safety = bondlab::read_number(arg[0]);
   if (!(safety > 0.0) || safety > 1.0) {
     const std::string text =
         std::string("timestep_bonded: SAFETY is ") + arg[0] + ", it must be above 0 and at most 1";

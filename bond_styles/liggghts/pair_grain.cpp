@@ -16,6 +16,7 @@
 #include "neigh_request.h"
 #include "neighbor.h"
 #include "pair_gather.h"
+#include "read_number.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -68,9 +69,9 @@ void PairGrain::coeff(int narg, char **arg) {
   int ilo, ihi, jlo, jhi;
   force->bounds(arg[0], atom->ntypes, ilo, ihi);
   force->bounds(arg[1], atom->ntypes, jlo, jhi);
-  const double modulus = force->numeric(FLERR, arg[2]);
-  const double ratio = force->numeric(FLERR, arg[3]);
-  const double friction = force->numeric(FLERR, arg[4]);
+  const double modulus = bondlab::read_number(arg[2]);
+  const double ratio = bondlab::read_number(arg[3]);
+  const double friction = bondlab::read_number(arg[4]);
   const auto check = [this](bool good, const char *name, const char *given, const char *allowed) {
     if (good) return;
     const std::string text = std::string("pair_coeff for pair_style grain: ") + name + " is " +
