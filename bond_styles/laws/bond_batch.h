@@ -55,6 +55,18 @@ struct alignas(64) PairLoads2 {
   double ti[kBlock], tj[kBlock];  // N m
 };
 
+// Orientations of the two ends of one block of pairs: unit quaternions (w, x, y, z) that turn a
+// particle's body axes, which at its creation were the world's, to where they are now. Only for laws
+// that need them. In the plane w and z alone.
+struct alignas(64) Orientations3 {
+  double iw[kBlock], ix[kBlock], iy[kBlock], iz[kBlock];
+  double jw[kBlock], jx[kBlock], jy[kBlock], jz[kBlock];
+};
+struct alignas(64) Orientations2 {
+  double iw[kBlock], iz[kBlock];
+  double jw[kBlock], jz[kBlock];
+};
+
 // What a law says of a bond after a step.
 enum class BondFate : unsigned char { intact = 0, broken_in_tension = 1, broken_in_shear = 2 };
 
