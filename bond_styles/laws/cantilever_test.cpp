@@ -8,7 +8,7 @@
 // the nonlinear part is 1e-10.
 #include <gtest/gtest.h>
 
-#include "chain_testbench.h"
+#include "chain_runs.h"
 #include "reference_table.h"
 
 using namespace bondlab::laws;
@@ -31,19 +31,6 @@ Bench chain(const Rod &rod, int bonds, double ratio, bool flat = false, double t
   p.ratio = ratio;
   for (int k = 0; k < bonds; ++k) b.bond(k, k + 1, p);
   return b;
-}
-
-// Moves the chain to rest under its loads; omega: that of the slowest mode or up to 1.4 times more.
-void settle(Bench &b, double dt, double omega) {
-  b.viscous = 1.4 * omega;
-  b.load(0.0, false);
-  const long steps = std::lround(25.0 / (0.7 * omega * dt));
-  for (long k = 0; k < steps; ++k) b.step(dt);
-}
-
-// First frequency of the slender beam of the same EI and mass, for the damping only.
-double slow_frequency(double EI, double mass_per_length, double length) {
-  return 1.8751041 * 1.8751041 * std::sqrt(EI / mass_per_length) / (length * length);
 }
 
 }  // namespace

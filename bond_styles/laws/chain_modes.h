@@ -35,12 +35,8 @@ inline std::vector<double> stiffness_column(const Bench &bench, const std::vecto
     Bench b = bench;
     for (Grain &g : b.grains) g.v = g.w = {0, 0, 0};
     Grain &g = b.grains[moved.grain];
-    if (moved.axis < 3) {
-      component(g.v, moved.axis) = steps * h;
-      g.x = g.x + g.v;
-    } else {
-      component(g.w, moved.axis - 3) = steps * h;
-    }
+    (moved.axis < 3 ? component(g.v, moved.axis) : component(g.w, moved.axis - 3)) = steps * h;
+    b.drift(1.0);
     b.load(1.0);
     for (std::size_t r = 0; r < freedoms.size(); ++r) {
       Grain &on = b.grains[freedoms[r].grain];

@@ -7,6 +7,7 @@
 // liggghts/pair_gather.h: change over the step = dt times half-step velocity. A test may integrate
 // (step), or prescribe positions and half-step velocities itself and ask for loads (load).
 // In 2D (`flat`) only x, y and the rotation about z take part.
+// The bonds' law is the parallel bond, or whatever `Bench::law` says.
 // Units: SI. Failure: none, it is for tests only. Limits: no neighbour search, bonds never change
 // places; a handful of grains (loads are summed pair by pair in the order of their making).
 #ifndef BONDLAB_LAWS_CHAIN_TESTBENCH_H
@@ -28,6 +29,7 @@ struct Grain {
   Vec3 f{0, 0, 0}, t{0, 0, 0};              // N, N m, after load()
   Vec3 pull{0, 0, 0}, turn{0, 0, 0};        // constant external load, N, N m
   Vec3 turned{0, 0, 0};                     // sum of the small rotations of all steps, rad
+  std::array<double, 4> q{1, 0, 0, 0};      // orientation, unit quaternion (w, x, y, z)
   double radius = 0.0, mass = 0.0, inertia = 0.0;
   bool held = false;  // neither moves nor turns by itself
 };
@@ -42,6 +44,19 @@ inline Vec3 rotated(Vec3 v, Vec3 a) {
   const Vec3 n = (1.0 / angle) * a;
   const double c = std::cos(angle), s = std::sin(angle);
   return c * v + s * cross(n, v) + ((1.0 - c) * dot(n, v)) * n;
+}
+
+// The orientation q after a further turn by the rotation vector a.
+inline std::array<double, 4> turned_by(const std::array<double, 4> &q, Vec3 a) {
+  const double half = 0.5 * length(a), s = half > 0.0 ? 0.5 * std::sin(half) / half : 0.5;
+  const double w = std::cos(half), x = s * a.x, y = s * a.y, z = s * a.z;
+  std::array<double, 4> r{w * q[0] - x * q[1] - y * q[2] - z * q[3],
+                          w * q[1] + x * q[0] + y * q[3] - z * q[2],
+                          w * q[2] + y * q[0] + z * q[1] - x * q[3],
+                          w * q[3] + z * q[0] + x * q[2] - y * q[1]};
+  const double norm = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);
+  for (double &c : r) c /= norm;
+  return r;
 }
 
 struct ContactSpec {
@@ -59,8 +74,22 @@ struct PairRow {
   Vec3 fs{0, 0, 0}, mb{0, 0, 0}, cs{0, 0, 0};  // 2D: .x
   double mt = 0, sigma = 0, tau = 0;
   BondFate fate = BondFate::intact;
+  std::array<double, 32> own{};  // what another law keeps of a bond, see BondLaw
   // loads of the last call
   Vec3 force{0, 0, 0}, moment_i{0, 0, 0}, moment_j{0, 0, 0};
+};
+
+// A law other than the parallel bond. Lane b of a block is the bond *rows[b].
+class Bench;
+struct BondLaw {
+  virtual ~BondLaw() = default;
+  virtual void block(const Bench &, PairRow *const *rows, const Kinematics3 &,
+                     const Orientations3 &, const ContactParameters &, double *csx, double *csy,
+                     double *csz, bool advance, PairLoads3 &) const = 0;
+  virtual void block(const Bench &, PairRow *const *rows, const Kinematics2 &,
+                     const Orientations2 &, const ContactParameters &, double *cs, bool advance,
+                     PairLoads2 &) const = 0;
+  virtual double energy(const Bench &, const PairRow &) const = 0;  // elastic, of the bond, J
 };
 
 class Bench {
@@ -69,6 +98,7 @@ class Bench {
 
   std::vector<Grain> grains;
   std::vector<PairRow> pairs;
+  std::shared_ptr<const BondLaw> law;  // none: parallel.h
   double viscous = 0.0;  // 1/s, damping proportional to mass
   bool transverse_only = false;  // grains move along y and turn about z only
 
@@ -143,12 +173,17 @@ class Bench {
   // Velocity Verlet. Forces must be known: call load(0, false) once before the first step.
   void step(double dt) {
     kick(0.5 * dt);
+    drift(dt);
+    load(dt);
+    kick(0.5 * dt);
+  }
+
+  void drift(double dt) {
     for (Grain &g : grains) {
       g.x = g.x + dt * g.v;
       g.turned = g.turned + dt * g.w;
+      if (law) g.q = turned_by(g.q, dt * g.w);
     }
-    load(dt);
-    kick(0.5 * dt);
   }
 
   // Steps with positions and spins given: grain k moves to x(k) and turns by spin(k) (rad).
@@ -158,7 +193,9 @@ class Bench {
       const Vec3 next = x(k);
       grains[k].v = (1.0 / dt) * (next - grains[k].x);
       grains[k].x = next;
-      grains[k].w = (1.0 / dt) * spin(k);
+      const Vec3 turn = spin(k);
+      grains[k].w = (1.0 / dt) * turn;
+      if (law) grains[k].q = turned_by(grains[k].q, turn);
     }
     load(dt, advance);
   }
@@ -178,7 +215,9 @@ class Bench {
     for (const PairRow &p : pairs) {
       const double overlap = p.reference - distance(p.i, p.j);
       sum += contact_energy(overlap > 0.0 ? p.kn * overlap : 0.0, length(p.cs), p.kn, p.ks);
-      if (p.alive != 0.0)
+      if (p.bonded && law)
+        sum += law->energy(*this, p);
+      else if (p.alive != 0.0)
         sum += parallel_energy(normal_force(p), length(p.fs), length(p.mb), p.mt, p.stiffness,
                                p.stiffness / p.ratio, section(p));
     }
@@ -264,7 +303,18 @@ class Bench {
       k.ri[b] = i.radius, k.rj[b] = j.radius;
     }
     const ContactParameters contact{c.reference.data(), c.kn.data(), c.ks.data(), c.mu.data()};
-    if (bonded) {
+    if (bonded && law) {
+      Orientations3 o;
+      PairRow *rows[kBlock];
+      for (int b = 0; b < kBlock; ++b) {
+        rows[b] = &row(first + b);
+        const auto &i = grains[rows[b]->i].q, &j = grains[rows[b]->j].q;
+        o.iw[b] = i[0], o.ix[b] = i[1], o.iy[b] = i[2], o.iz[b] = i[3];
+        o.jw[b] = j[0], o.jx[b] = j[1], o.jy[b] = j[2], o.jz[b] = j[3];
+      }
+      law->block(*this, rows, k, o, contact, c.csx.data(), c.csy.data(), c.csz.data(), advance, out);
+      for (int b = 0; b < kBlock; ++b) rows[b]->cs = {c.csx[b], c.csy[b], c.csz[b]};
+    } else if (bonded) {
       const ParallelArrays3 a{c.rest.data(),    c.radius.data(), c.stiffness.data(), c.ratio.data(),
                               c.beta.data(),    c.tan_phi.data(), c.sigma_c.data(),  c.tau_c.data(),
                               c.alive.data(),   c.fsx.data(),    c.fsy.data(),       c.fsz.data(),
@@ -277,7 +327,7 @@ class Bench {
     } else {
       contact_block_3d(k, contact, advance, c.csx.data(), c.csy.data(), c.csz.data(), out);
     }
-    empty(first, c);
+    if (!bonded || !law) empty(first, c);
     for (std::size_t r = first; r < std::min(first + kBlock, order_.size()); ++r) {
       const int b = static_cast<int>(r - first);
       row(r).force = {out.fx[b], out.fy[b], out.fz[b]};
@@ -301,7 +351,17 @@ class Bench {
       k.ri[b] = i.radius, k.rj[b] = j.radius;
     }
     const ContactParameters contact{c.reference.data(), c.kn.data(), c.ks.data(), c.mu.data()};
-    if (bonded) {
+    if (bonded && law) {
+      Orientations2 o;
+      PairRow *rows[kBlock];
+      for (int b = 0; b < kBlock; ++b) {
+        rows[b] = &row(first + b);
+        const auto &i = grains[rows[b]->i].q, &j = grains[rows[b]->j].q;
+        o.iw[b] = i[0], o.iz[b] = i[3], o.jw[b] = j[0], o.jz[b] = j[3];
+      }
+      law->block(*this, rows, k, o, contact, c.csx.data(), advance, out);
+      for (int b = 0; b < kBlock; ++b) rows[b]->cs = {c.csx[b], 0.0, 0.0};
+    } else if (bonded) {
       const ParallelArrays2 a{c.rest.data(), c.radius.data(),  c.stiffness.data(), c.ratio.data(),
                               c.beta.data(), c.tan_phi.data(), c.sigma_c.data(),   c.tau_c.data(),
                               thickness_,    c.alive.data(),   c.fsx.data(),       c.mbx.data(),
@@ -313,7 +373,7 @@ class Bench {
     } else {
       contact_block_2d(k, contact, advance, c.csx.data(), out);
     }
-    empty(first, c);
+    if (!bonded || !law) empty(first, c);
     for (std::size_t r = first; r < std::min(first + kBlock, order_.size()); ++r) {
       const int b = static_cast<int>(r - first);
       row(r).force = {out.fx[b], out.fy[b], 0.0};
