@@ -16,7 +16,7 @@
 using namespace LAMMPS_NS;
 
 namespace {
-enum Part { BOND, CONTACT, TRANSLATION, ROTATION, PARTS };
+enum Part { BOND, CONTACT, TRANSLATION, ROTATION, LOST, CREEP, PARTS };
 }
 
 ComputeEnergyBonded::ComputeEnergyBonded(LAMMPS *lmp, int &iarg, int narg, char **arg)
@@ -42,13 +42,15 @@ void ComputeEnergyBonded::init() {
 void ComputeEnergyBonded::compute_vector() {
   invoked_vector = update->ntimestep;
   bondlab::ExactSums<PARTS> sums;
-  if (BondBPM *bond = dynamic_cast<BondBPM *>(force->bond)) {
+  for (BondBPM *bond : BondBPM::all(lmp))
     for (int row = 0; row < style_->bonds.size(); row++) {
-      if (!bond->counted_here(row)) continue;
-      sums.add(BOND, bond->row_energy(row));
+      if (!bond->computes(row) || !bond->counted_here(row)) continue;
+      const BondBPM::Values values = bond->values(row);
+      sums.add(BOND, values.energy);
       sums.add(CONTACT, bond->contact_row_energy(row));
+      sums.add(LOST, values.lost);
+      sums.add(CREEP, values.creep);
     }
-  }
   if (PairGrain *grain = dynamic_cast<PairGrain *>(force->pair))
     grain->for_each_contact([&](double kn, double ks, double overlap, double shear) {
       sums.add(CONTACT, bondlab::laws::contact_energy(kn * overlap, shear, kn, ks));

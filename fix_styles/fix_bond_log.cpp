@@ -20,7 +20,7 @@ using bondlab::number_text;
 FixBondLog::FixBondLog(LAMMPS *lmp, int narg, char **arg)
     : Fix(lmp, narg, arg),
       table_(lmp, this, "bondlab-broken-bonds 1"),
-      bonds_(NULL),
+      particles_(NULL),
       gathered_{0, 0} {
   vector_flag = 1;
   size_vector = 3;
@@ -41,8 +41,8 @@ FixBondLog::FixBondLog(LAMMPS *lmp, int narg, char **arg)
 int FixBondLog::setmask() { return END_OF_STEP | POST_RUN; }
 
 void FixBondLog::init() {
-  bonds_ = dynamic_cast<BondBPM *>(force->bond);
-  if (!bonds_)
+  particles_ = AtomVecBondedSphere::of(lmp, "fix bond/log");
+  if (BondBPM::all(lmp).empty())
     stop_with_error(lmp, this,
                     std::string("needs a bond style of bonded particles, like "
                                 "`bond_style parallel`; this run has '") +
@@ -63,7 +63,7 @@ void FixBondLog::post_run() {
 
 void FixBondLog::gather() {
   static_assert(std::is_trivially_copyable<BreakEvent>::value, "sent between ranks as bytes");
-  std::vector<BreakEvent> &mine = bonds_->events;
+  std::vector<BreakEvent> &mine = particles_->breaks;
   long long count = static_cast<long long>(mine.size()), all = 0;
   MPI_Allreduce(&count, &all, 1, MPI_LONG_LONG, MPI_SUM, world);
   if (all == 0) return;
@@ -91,8 +91,8 @@ void FixBondLog::gather() {
 
 double FixBondLog::compute_vector(int n) {
   double count[2] = {0, 0};
-  if (bonds_)
-    for (const BreakEvent &e : bonds_->events) count[e.mode ? 1 : 0] += 1.0;
+  if (particles_)
+    for (const BreakEvent &e : particles_->breaks) count[e.mode ? 1 : 0] += 1.0;
   MPI_Allreduce(MPI_IN_PLACE, count, 2, MPI_DOUBLE, MPI_SUM, world);
   for (int k = 0; k < 2; k++) count[k] += static_cast<double>(gathered_[k]);
   return n == 0 ? count[0] + count[1] : count[n - 1];

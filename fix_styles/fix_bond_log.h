@@ -2,7 +2,7 @@
 
    Job: `fix bond/log`: write every broken bond to a table (table_file.h) and count them.
 
-   Bond styles note breaks on the rank that owns the bond (BondBPM::events); every N steps they are
+   Bond styles note breaks on the rank that owns the bond (AtomVecBondedSphere::breaks); every N steps they are
    gathered on rank 0 and written in the order of step and tags, which no number of ranks changes.
    Counts include what is not yet gathered. See fix_bond_log.md.
 
@@ -39,7 +39,7 @@ class FixBondLog : public Fix {
 
  private:
   FixTable table_;
-  class BondBPM *bonds_;
+  class AtomVecBondedSphere *particles_;
   bigint gathered_[2];  // breaks gathered so far in tension, shear; on all ranks
   void gather();
 };

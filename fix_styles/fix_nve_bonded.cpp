@@ -35,6 +35,7 @@ int FixNVEBonded::setmask() { return INITIAL_INTEGRATE | FINAL_INTEGRATE; }
 
 void FixNVEBonded::init() {
   inertia_factor_ = domain->dimension == 2 ? 0.5 : 0.4;  // disc, sphere
+  if (style_->send_orientation) orientation_ = true;  // a bond law asked for it
   first_step_ = true;
   reset_dt();
 }

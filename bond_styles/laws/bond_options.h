@@ -32,6 +32,8 @@
 
 #include <cmath>
 
+#include "pair_geometry.h"
+
 namespace bondlab::laws {
 
 // One block of bonds; shapes [kBlock] each. Null pointers in a law compiled without options.
@@ -48,6 +50,26 @@ inline double integrity(double worst, double failure) {
   const double falling = (failure / worst - 1.0) / (failure - 1.0);  // failure = 1: not used
   const double softening = falling > 0.0 ? falling : 0.0;
   return worst < 1.0 ? 1.0 : (failure > 1.0 ? softening : 0.0);
+}
+
+// Elastic energy of effective forces, J, as far as damage takes it: tensile normal force, shear, bend
+// and twist. Forces squared but the normal one; stiffness Pa/m, section m2, m4.
+inline double option_energy(double fn, double fs2, double mb2, double mt2, double kn, double ks,
+                            double kb, double area, double bend, double twist) {
+  const double soft = ks > 0.0 ? 1.0 / ks : 0.0;
+  return 0.5 * (fn * fn / (kn * area) + soft * fs2 / area + mb2 / (kb * bend) + soft * mt2 / twist);
+}
+
+// Change of the distance of a pair over a step, m, without the cancellation of two distances:
+// u.(d + d_0) / (|d| + |d_0|).
+inline double stretched(const PairStep3& p, Vec3 u, Vec3 d) {
+  const Vec3 sum = d + (d - u);
+  const double before = std::sqrt(dot(d - u, d - u));
+  return dot(u, sum) / (p.distance + before);
+}
+inline double stretched(const PairStep2& p, double ux, double uy, double dx, double dy) {
+  const double x0 = dx - ux, y0 = dy - uy;
+  return (ux * (dx + x0) + uy * (dy + y0)) / (p.distance + std::sqrt(x0 * x0 + y0 * y0));
 }
 
 // s_f of a bond with fracture energy G_f (J/m2), stiffness k per area (Pa/m) and strength (Pa).

@@ -22,13 +22,17 @@
 // On a break the bond's force and moment vanish at once and its state is set to zero; the grain
 // contact in parallel is computed by grain_contact.h and is not touched.
 //
+// Options (bond_options.h): another modulus in tension, softening, a dashpot parallel to the bond. The
+// stresses above are then those of the undamaged elastic forces, which are what the state holds.
+//
 // Units: m, N, N m, Pa. Failure: none; NaN in, NaN out (the caller watches). Limits: strength is
-// looked at once a step, so the overshoot is rate x dt x stiffness; no softening, no bond damping.
+// looked at once a step, so the overshoot is rate x dt x stiffness.
 #ifndef BONDLAB_LAWS_PARALLEL_H
 #define BONDLAB_LAWS_PARALLEL_H
 
 #include <cmath>
 
+#include "bond_options.h"
 #include "grain_contact.h"
 
 namespace bondlab::laws {
@@ -90,10 +94,11 @@ struct ParallelArrays2 {
 
 // One block in 3D: bond and grain contact together; `out` gets their sum.
 // advance = false computes the loads of the stored state and changes nothing (set-up of a run).
-template <bool advance>
+// options, contact = false leave these parts out; their pointers are then not read.
+template <bool advance, bool options = false, bool contact = true>
 void parallel_block_3d(const Kinematics3& k, const ParallelArrays3& a, const ContactParameters& c,
                        double* __restrict csx, double* __restrict csy, double* __restrict csz,
-                       PairLoads3& out) {
+                       PairLoads3& out, const OptionArrays& o = {}) {
   // Local restrict pointers: through the structs the compiler must reload them at every store.
   const double *__restrict rest = a.rest, *__restrict radius = a.radius,
                *__restrict stiffness = a.stiffness, *__restrict ratio = a.ratio,
@@ -106,15 +111,20 @@ void parallel_block_3d(const Kinematics3& k, const ParallelArrays3& a, const Con
   double *__restrict fsx = a.fsx, *__restrict fsy = a.fsy, *__restrict fsz = a.fsz,
          *__restrict mbx = a.mbx, *__restrict mby = a.mby, *__restrict mbz = a.mbz,
          *__restrict mt_b = a.mt;
+  const double *__restrict tension_o = o.tension, *__restrict failure_o = o.failure,
+               *__restrict viscous_o = o.viscous;
+  double *__restrict worst_o = o.worst, *__restrict lost_o = o.lost;
 #pragma GCC ivdep
   for (int b = 0; b < kBlock; ++b) {
     const PairStep3 p({k.dx[b], k.dy[b], k.dz[b]}, {k.ux[b], k.uy[b], k.uz[b]},
                       {k.sx[b], k.sy[b], k.sz[b]}, {k.qx[b], k.qy[b], k.qz[b]});
-    const ContactForce3 grain = contact_force(p, Vec3{csx[b], csy[b], csz[b]}, reference[b],
-                                              kn_c[b], ks_c[b], mu_c[b]);
+    ContactForce3 grain{0.0, {0.0, 0.0, 0.0}};
+    if constexpr (contact)
+      grain = contact_force(p, Vec3{csx[b], csy[b], csz[b]}, reference[b], kn_c[b], ks_c[b], mu_c[b]);
     const BondSection section = round_section(radius[b]);
     const double kn = stiffness[b], ks = kn / ratio[b], alive = alive_b[b];
-    const double fn = kn * section.area * (p.distance - rest[b]);
+    double fn = kn * section.area * (p.distance - rest[b]);
+    if constexpr (options) fn *= fn > 0.0 ? tension_o[b] : 1.0;
     const Vec3 fs = p.carried(Vec3{fsx[b], fsy[b], fsz[b]}) + (ks * section.area) * p.shear;
     const Vec3 mb = p.carried(Vec3{mbx[b], mby[b], mbz[b]}) + (kn * section.bend) * p.bend;
     const double mt = mt_b[b] + ks * section.twist * p.twist;
@@ -125,17 +135,55 @@ void parallel_block_3d(const Kinematics3& k, const ParallelArrays3& a, const Con
     const double sigma = sigma_n + rim * std::sqrt(dot(mb, mb)) / section.bend;
     const double tau =
         std::sqrt(dot(fs, fs)) * inverse_area + rim * std::fabs(mt) / section.twist;
-    const bool tension = sigma >= sigma_c[b];
-    const bool shear = tau >= tau_c[b] - sigma_n * tan_phi[b];
-    const double hold = advance ? ((tension | shear) ? 0.0 : alive) : alive;
+    const double shear_strength = tau_c[b] - sigma_n * tan_phi[b];
+    bool tension = sigma >= sigma_c[b];
+    bool shear = tau >= shear_strength;
+    double hold, share = 1.0, worst = 0.0;
+    if constexpr (options) {
+      // s of a bond whose shear strength is used up by tension alone is without bound
+      const double opened = sigma / sigma_c[b];
+      const double slid = shear_strength > 0.0 ? tau / shear_strength : (shear ? 1e300 : 0.0);
+      const double factor = opened > slid ? opened : slid;
+      worst = worst_o[b] > factor || !advance ? worst_o[b] : factor;
+      share = integrity(worst, failure_o[b]);
+      const bool broken = share <= 0.0;
+      tension = broken & (opened >= slid);
+      shear = broken & (opened < slid);
+    }
+    hold = advance ? ((tension | shear) ? 0.0 : alive) : alive;
     sigma_b[b] = alive * sigma;
     tau_b[b] = alive * tau;
-    fate_b[b] = 
-        !advance || alive == 0.0 ? 0.0 : (tension ? 1.0 : (shear ? 2.0 : 0.0));
+    fate_b[b] = !advance || alive == 0.0 ? 0.0 : (tension ? 1.0 : (shear ? 2.0 : 0.0));
 
-    const Vec3 across = grain.shear + hold * fs;
-    const Vec3 force = across + (hold * fn - grain.normal) * p.e;
-    const Vec3 moment = hold * (mb + mt * p.e);
+    Vec3 fs_out = hold * fs, mb_out = hold * mb;
+    double fn_out = hold * fn, mt_out = hold * mt;
+    if constexpr (options) {
+      const double before = worst_o[b] > 1.0 ? integrity(worst_o[b], failure_o[b]) : 1.0;
+      fs_out = share * fs_out, mb_out = share * mb_out, mt_out *= share;
+      fn_out *= fn > 0.0 ? share : 1.0;
+      const double stored = option_energy(fn > 0.0 ? fn : 0.0, dot(fs, fs), dot(mb, mb), mt * mt,
+                                          kn * (fn > 0.0 ? tension_o[b] : 1.0), ks, kn,
+                                          section.area, section.bend, section.twist);
+      // dashpots, with the motion of the step
+      const double vn = viscous_o[b] * hold * kn * section.area;
+      const double vs = viscous_o[b] * hold * ks * section.area;
+      const double vb = viscous_o[b] * hold * kn * section.bend;
+      const double vt = viscous_o[b] * hold * ks * section.twist;
+      const double stretch = stretched(p, Vec3{k.ux[b], k.uy[b], k.uz[b]}, Vec3{k.dx[b], k.dy[b], k.dz[b]});
+      fn_out += vn * stretch;
+      fs_out = fs_out + vs * p.shear;
+      mb_out = mb_out + vb * p.bend;
+      mt_out += vt * p.twist;
+      if constexpr (advance) {
+        worst_o[b] = worst;
+        lost_o[b] += alive * (hold * (before - share) * stored) + vn * stretch * stretch +
+                     vs * dot(p.shear, p.shear) + vb * dot(p.bend, p.bend) + vt * p.twist * p.twist;
+      }
+    }
+
+    const Vec3 across = grain.shear + fs_out;
+    const Vec3 force = across + (fn_out - grain.normal) * p.e;
+    const Vec3 moment = mb_out + mt_out * p.e;
     const double arm = p.distance / (k.ri[b] + k.rj[b]);
     const double ai = arm * k.ri[b], aj = arm * k.rj[b];
     const Vec3 lever = cross(p.e, across);
@@ -149,15 +197,15 @@ void parallel_block_3d(const Kinematics3& k, const ParallelArrays3& a, const Con
       fsx[b] = hold * fs.x, fsy[b] = hold * fs.y, fsz[b] = hold * fs.z;
       mbx[b] = hold * mb.x, mby[b] = hold * mb.y, mbz[b] = hold * mb.z;
       mt_b[b] = hold * mt;
-      csx[b] = grain.shear.x, csy[b] = grain.shear.y, csz[b] = grain.shear.z;
+      if constexpr (contact) csx[b] = grain.shear.x, csy[b] = grain.shear.y, csz[b] = grain.shear.z;
     }
   }
 }
 
 // The same in the plane.
-template <bool advance>
+template <bool advance, bool options = false, bool contact = true>
 void parallel_block_2d(const Kinematics2& k, const ParallelArrays2& a, const ContactParameters& c,
-                       double* __restrict cs, PairLoads2& out) {
+                       double* __restrict cs, PairLoads2& out, const OptionArrays& o = {}) {
   // Local restrict pointers: through the structs the compiler must reload them at every store.
   const double *__restrict rest = a.rest, *__restrict radius = a.radius,
                *__restrict stiffness = a.stiffness, *__restrict ratio = a.ratio,
@@ -168,15 +216,19 @@ void parallel_block_2d(const Kinematics2& k, const ParallelArrays2& a, const Con
   double *__restrict alive_b = a.alive, *__restrict sigma_b = a.sigma, *__restrict tau_b = a.tau,
          *__restrict fate_b = a.fate;
   double *__restrict fs_b = a.fs, *__restrict mb_b = a.mb;
+  const double *__restrict tension_o = o.tension, *__restrict failure_o = o.failure,
+               *__restrict viscous_o = o.viscous;
+  double *__restrict worst_o = o.worst, *__restrict lost_o = o.lost;
   const double thickness = a.thickness;
 #pragma GCC ivdep
   for (int b = 0; b < kBlock; ++b) {
     const PairStep2 p(k.dx[b], k.dy[b], k.ux[b], k.uy[b], k.s[b]);
-    const ContactForce2 grain =
-        contact_force(p, cs[b], reference[b], kn_c[b], ks_c[b], mu_c[b]);
+    ContactForce2 grain{0.0, 0.0};
+    if constexpr (contact) grain = contact_force(p, cs[b], reference[b], kn_c[b], ks_c[b], mu_c[b]);
     const BondSection section = strip_section(radius[b], thickness);
     const double kn = stiffness[b], ks = kn / ratio[b], alive = alive_b[b];
-    const double fn = kn * section.area * (p.distance - rest[b]);
+    double fn = kn * section.area * (p.distance - rest[b]);
+    if constexpr (options) fn *= fn > 0.0 ? tension_o[b] : 1.0;
     const double fs = fs_b[b] + ks * section.area * p.shear;
     const double mb = mb_b[b] + kn * section.bend * k.q[b];
 
@@ -184,25 +236,56 @@ void parallel_block_2d(const Kinematics2& k, const ParallelArrays2& a, const Con
     const double sigma_n = fn * inverse_area;
     const double sigma = sigma_n + beta[b] * radius[b] * std::fabs(mb) / section.bend;
     const double tau = std::fabs(fs) * inverse_area;
-    const bool tension = sigma >= sigma_c[b];
-    const bool shear = tau >= tau_c[b] - sigma_n * tan_phi[b];
-    const double hold = advance ? ((tension | shear) ? 0.0 : alive) : alive;
+    const double shear_strength = tau_c[b] - sigma_n * tan_phi[b];
+    bool tension = sigma >= sigma_c[b];
+    bool shear = tau >= shear_strength;
+    double hold, share = 1.0, worst = 0.0;
+    if constexpr (options) {
+      const double opened = sigma / sigma_c[b];
+      const double slid = shear_strength > 0.0 ? tau / shear_strength : (shear ? 1e300 : 0.0);
+      const double factor = opened > slid ? opened : slid;
+      worst = worst_o[b] > factor || !advance ? worst_o[b] : factor;
+      share = integrity(worst, failure_o[b]);
+      const bool broken = share <= 0.0;
+      tension = broken & (opened >= slid);
+      shear = broken & (opened < slid);
+    }
+    hold = advance ? ((tension | shear) ? 0.0 : alive) : alive;
     sigma_b[b] = alive * sigma;
     tau_b[b] = alive * tau;
-    fate_b[b] = 
-        !advance || alive == 0.0 ? 0.0 : (tension ? 1.0 : (shear ? 2.0 : 0.0));
+    fate_b[b] = !advance || alive == 0.0 ? 0.0 : (tension ? 1.0 : (shear ? 2.0 : 0.0));
 
-    const double along = hold * fn - grain.normal, across = grain.shear + hold * fs;
+    double fn_out = hold * fn, fs_out = hold * fs, mb_out = hold * mb;
+    if constexpr (options) {
+      const double before = worst_o[b] > 1.0 ? integrity(worst_o[b], failure_o[b]) : 1.0;
+      fs_out *= share, mb_out *= share;
+      fn_out *= fn > 0.0 ? share : 1.0;
+      const double stored = option_energy(fn > 0.0 ? fn : 0.0, fs * fs, mb * mb, 0.0,
+                                          kn * (fn > 0.0 ? tension_o[b] : 1.0), ks, kn,
+                                          section.area, section.bend, 1.0);
+      const double vn = viscous_o[b] * hold * kn * section.area;
+      const double vs = viscous_o[b] * hold * ks * section.area;
+      const double vb = viscous_o[b] * hold * kn * section.bend;
+      const double stretch = stretched(p, k.ux[b], k.uy[b], k.dx[b], k.dy[b]);
+      fn_out += vn * stretch, fs_out += vs * p.shear, mb_out += vb * k.q[b];
+      if constexpr (advance) {
+        worst_o[b] = worst;
+        lost_o[b] += alive * (hold * (before - share) * stored) + vn * stretch * stretch +
+                     vs * p.shear * p.shear + vb * k.q[b] * k.q[b];
+      }
+    }
+
+    const double along = fn_out - grain.normal, across = grain.shear + fs_out;
     const double arm = p.distance / (k.ri[b] + k.rj[b]);
     out.fx[b] = along * p.ex - across * p.ey;
     out.fy[b] = along * p.ey + across * p.ex;
-    out.ti[b] = hold * mb + arm * k.ri[b] * across;
-    out.tj[b] = arm * k.rj[b] * across - hold * mb;
+    out.ti[b] = mb_out + arm * k.ri[b] * across;
+    out.tj[b] = arm * k.rj[b] * across - mb_out;
     if (advance) {
       alive_b[b] = hold;
       fs_b[b] = hold * fs;
       mb_b[b] = hold * mb;
-      cs[b] = grain.shear;
+      if constexpr (contact) cs[b] = grain.shear;
     }
   }
 }

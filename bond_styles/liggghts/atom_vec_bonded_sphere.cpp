@@ -3,6 +3,7 @@
 // Communication between ranks and restarts are in atom_vec_bonded_sphere_comm.cpp.
 #include "atom_vec_bonded_sphere.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -23,12 +24,11 @@ using namespace LAMMPS_NS;
 
 namespace {
 constexpr int kGrowBy = 16384;
-constexpr int kBondColumns = 12;    // see bond_bpm.h
 constexpr int kContactColumns = 3;  // shear force
 }  // namespace
 
 AtomVecBondedSphere::AtomVecBondedSphere(LAMMPS *lmp)
-    : AtomVec(lmp), bonds(kBondColumns), contacts(kContactColumns) {
+    : AtomVec(lmp), bonds(0), contacts(kContactColumns), law_columns(0) {
   molecular = 1;  // the engine calls the bond style only then
   bonds_allow = 1;
   mass_type = 0;
@@ -94,6 +94,11 @@ void AtomVecBondedSphere::settings(int narg, char **arg) {
   }
 }
 
+void AtomVecBondedSphere::ask_for_columns(int common, int law, bool options) {
+  law_columns = std::max(law_columns, law);
+  bonds.widen(common + law_columns + (options ? 2 : 0));
+}
+
 void AtomVecBondedSphere::init() {
   AtomVec::init();
   for (int i = 0; i < modify->nfix; i++)
@@ -110,6 +115,15 @@ void AtomVecBondedSphere::init() {
   int most = record;
   MPI_Allreduce(&record, &most, 1, MPI_INT, MPI_MAX, world);
   comm->maxexchange_atom = 4 * most;
+}
+
+const bondlab::ParticleRecords &AtomVecBondedSphere::fill_records() {
+  const int n = atom->nlocal + atom->nghost;
+  if (domain->dimension == 2)
+    records_.fill_plane(n, x, v, omega, radius);
+  else
+    records_.fill_space(n, x, v, omega, radius);
+  return records_;
 }
 
 double AtomVecBondedSphere::mass_of(double r, double rho) const {

@@ -25,6 +25,8 @@ AtomStyle(bonded/sphere,AtomVecBondedSphere)
 #include <functional>
 
 #include "atom_vec.h"
+#include "break_event.h"
+#include "pair_gather.h"
 #include "pair_table.h"
 
 namespace LAMMPS_NS {
@@ -45,6 +47,12 @@ class AtomVecBondedSphere : public AtomVec {
 
   bondlab::PairTable bonds;     // kept by bond styles
   bondlab::PairTable contacts;  // kept by pair_style grain
+  // Columns of a bond: `common` ones, those of its law (of several laws the largest number), and two
+  // for options if some bond type has any.
+  int law_columns;
+  void ask_for_columns(int common, int law, bool options);
+  // Bonds that broke on this rank since somebody took them; each bond on one rank only.
+  std::vector<BreakEvent> breaks;
 
   // Counts rebuilds of the ghost shell. The two tables are put in order at the first use after one;
   // their owners compare `generation` with the one they last saw.
@@ -60,6 +68,11 @@ class AtomVecBondedSphere : public AtomVec {
   bigint saved_step;        // -1: none
   void save_forces();       // of the current step
   bool restore_forces(bigint step);
+
+  // Motion of all particles and ghosts in the form pairs read it (pair_gather.h). The pair style, or
+  // without one the bond style, fills it at the beginning of each force computation.
+  const bondlab::ParticleRecords &fill_records();
+  const bondlab::ParticleRecords &records() const { return records_; }
 
   double mass_of(double radius, double density) const;
   void set_reference_positions();
@@ -105,6 +118,7 @@ class AtomVecBondedSphere : public AtomVec {
   double **omega, **torque;
   int *slot;  // [nmax] names a particle's rows in both tables
   bool stale;
+  bondlab::ParticleRecords records_;
   int next_slot() const;
   int pack_common(int, double *) const;
   int unpack_common(int, const double *);

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Job: see bond_bpm.h.
+// Job: see bond_bpm.h. What a step does; coefficients, constants and restart are in bond_bpm_setup.cpp.
 #include "bond_bpm.h"
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "atom.h"
-#include "comm.h"
+#include "bond_hybrid.h"
 #include "domain.h"
-#include "error.h"
 #include "force.h"
-#include "neighbor.h"
 #include "pair_gather.h"
 #include "pair_grain.h"
 #include "update.h"
@@ -19,160 +18,224 @@ using namespace LAMMPS_NS;
 using bondlab::PairTable;
 using namespace bondlab::laws;
 
-BondBPM::BondBPM(LAMMPS *lmp)
-    : Bond(lmp), style_(AtomVecBondedSphere::of(lmp, "bond_style")), grain_(NULL),
-      seen_generation_(-1) {
-  style_->bond_gone = [this](int row) { return gone(row); };
+std::vector<BondBPM *> BondBPM::all(LAMMPS *lmp) {
+  std::vector<BondBPM *> found;
+  Bond *bond = lmp->force->bond;
+  if (BondBPM *one = dynamic_cast<BondBPM *>(bond)) found.push_back(one);
+  if (BondHybrid *several = dynamic_cast<BondHybrid *>(bond))
+    for (int m = 0; m < several->nstyles; m++)
+      if (BondBPM *one = dynamic_cast<BondBPM *>(several->styles[m])) found.push_back(one);
+  return found;
 }
 
-BondBPM::~BondBPM() {
-  // the atom style may be gone already when the engine shuts down
-  if (dynamic_cast<AtomVecBondedSphere *>(atom->avec) == style_) style_->bond_gone = nullptr;
-}
-
-void BondBPM::bad(const std::string &text) const { error->all(FLERR, text.c_str()); abort(); }
-
-void BondBPM::settings(int narg, char **arg) {
-  if (narg) bad(std::string("bond_style takes no further words, '") + arg[0] + "' was given");
-}
-
-void BondBPM::init_style() {
-  if (force->newton_pair)
-    bad("bonded particles need `newton off` (or `newton off on`): with `newton on` forces of ghosts would be added up in an order that depends on the ranks");
-  comm->ghost_velocity = 1;
-  grain_ = dynamic_cast<PairGrain *>(force->pair);
-  if (!grain_ && force->pair) grain_ = dynamic_cast<PairGrain *>(force->pair_match("grain", 1));
-  // ghosts must reach as far as the longest bond: half as much again as it is now, and the skin
-  double longest = 0.0, all = 0.0;
-  const PairTable &t = table();
-  for (int row = 0; row < t.size(); row++) longest = std::max(longest, t.state[REST][row]);
-  MPI_Allreduce(&longest, &all, 1, MPI_DOUBLE, MPI_MAX, world);
-  if (all > 0.0) comm->cutghostuser = std::max(comm->cutghostuser, 1.5 * all + neighbor->skin);
-  seen_generation_ = -1;  // coefficients may have changed
-}
-
-// A broken pair that has once been apart is an ordinary contact. Its row stays all the same while the
-// two could come into contact again, with the history of that contact and its place in the order of
-// summation: both would change at a rebuild of the neighbour list, whenever that happens to be. It
-// goes when they are further apart than ghosts reach, the same distance on any number of ranks.
-bool BondBPM::gone(int row) const {
-  const PairTable &t = style_->bonds;
-  const int both = BROKEN | SEPARATED;
-  if ((t.info[row] & both) != both) return false;
-  int i = style_->index_of(t.lo[row]), j = style_->index_of(t.hi[row]);
-  if (i < 0 || j < 0) return true;
-  if (i >= atom->nlocal) std::swap(i, j);
-  if (i >= atom->nlocal) return true;  // belongs to other ranks now
-  j = domain->closest_image(i, j);
-  double d2 = 0.0;
-  for (int d = 0; d < 3; d++) d2 += (atom->x[j][d] - atom->x[i][d]) * (atom->x[j][d] - atom->x[i][d]);
-  const double reach = *std::min_element(comm->cutghost, comm->cutghost + domain->dimension);
-  return d2 > reach * reach * (1.0 - 1e-9);
-}
+bool BondBPM::flat() const { return domain->dimension == 2; }
 
 bool BondBPM::counted_here(int row) const { return table().own_lo[row] < atom->nlocal; }
 
-void BondBPM::refresh() {
-  style_->index_tables();
-  if (seen_generation_ == style_->generation) return;
-  seen_generation_ = style_->generation;
-  const PairTable &t = table();
-  const int n = t.size(), padded = static_cast<int>(t.at_lo.size());
-  for (auto *v : {&kn_c_, &ks_c_, &mu_c_, &alive_, &ri_, &rj_, &sigma_c_, &tau_c_})
-    v->assign(padded, 0.0);
-  resize_constants(padded);
-  const double *radius = atom->radius;
-  const int *type = atom->type;
-  for (int k = 0; k < padded; k++) {
-    const int row = std::min(k, n - 1);  // unused lanes repeat the last bond
-    ri_[k] = radius[t.at_lo[row]];
-    rj_[k] = radius[t.at_hi[row]];
-    alive_[k] = t.info[row] & BROKEN ? 0.0 : 1.0;
-    if (grain_)
-      grain_->constants(type[t.at_lo[row]], type[t.at_hi[row]], ri_[k], rj_[k], kn_c_[k],
-                        ks_c_[k], mu_c_[k]);
-  }
-  for (int k = 0; k < n; k++) derive(k);
-  for (int k = n; k < padded; k++) derive(k);
+void BondBPM::compute(int eflag, int vflag) {
+  if (eflag || vflag)
+    ev_setup(eflag, vflag);
+  else
+    evflag = 0;
+  refresh();
+  const bool advance = !update->setupflag;
+  if (flat())
+    walk<Kinematics2, Orientations2, PairLoads2>(advance);
+  else
+    walk<Kinematics3, Orientations3, PairLoads3>(advance);
 }
 
-ContactParameters BondBPM::contact_block(int first) const {
-  return {table().state[REFERENCE].data() + first, kn_c_.data() + first, ks_c_.data() + first,
-          mu_c_.data() + first};
-}
-
-void BondBPM::gather(int first, double dt, Kinematics3 &k) const {
-  bondlab::gather(table(), first, dt, atom->x, atom->v, atom->omega, ri_.data() + first,
-                  rj_.data() + first, k);
-}
-
-void BondBPM::gather(int first, double dt, Kinematics2 &k) const {
-  bondlab::gather(table(), first, dt, atom->x, atom->v, atom->omega, ri_.data() + first,
-                  rj_.data() + first, k);
-}
-
-void BondBPM::scatter(int first, const PairLoads3 &loads) const {
-  bondlab::scatter(table(), first, atom->nlocal, loads, atom->f, atom->torque);
-}
-
-void BondBPM::scatter(int first, const PairLoads2 &loads) const {
-  bondlab::scatter(table(), first, atom->nlocal, loads, atom->f, atom->torque);
-}
-
-void BondBPM::finish_step(int first, const Report &report) {
-  int dead = 0;
-  for (int k = 0; k < kBlock; k++) dead += alive_[first + k] == 0.0;
-  if (!dead) return;
+template <class Kinematics, class Orientations, class Loads>
+void BondBPM::walk(bool advance) {
   PairTable &t = table();
-  const int n = std::min(kBlock, t.size() - first);
-  for (int k = 0; k < n; k++) {
-    const int row = first + k;
-    if (alive_[row] != 0.0) continue;
-    if (report.fate[k] != 0.0) {
-      t.info[row] |= BROKEN;
-      if (counted_here(row)) {
-        BreakEvent event;
-        event.step = update->ntimestep;
-        event.tag_lo = t.lo[row];
-        event.tag_hi = t.hi[row];
-        event.type = t.info[row] & TYPE_MASK;
-        const double share = ri_[row] / (ri_[row] + rj_[row]);
-        const double *a = atom->x[t.at_lo[row]], *b = atom->x[t.at_hi[row]];
-        for (int d = 0; d < 3; d++) event.x[d] = a[d] + share * (b[d] - a[d]);
-        event.mode = report.fate[k] == static_cast<double>(BondFate::broken_in_shear);
-        event.sigma = report.sigma[k];
-        event.tau = report.tau[k];
-        event.sigma_c = sigma_c_[row];
-        event.tau_c = tau_c_[row];
-        events.push_back(event);
-      }
+  const int n = t.size();
+  const double dt = advance ? update->dt : 0.0;
+  Block block;
+  Kinematics kinematics;
+  Orientations turned;
+  Loads loads;
+  const bondlab::ParticleRecords &records = grain_ ? style_->records() : style_->fill_records();
+  for (int first = 0; first < n; first += kBlock) {
+    const int kind = block_type_[first / kBlock];
+    if (kind == NONE) continue;
+    bondlab::gather(t, first, dt, records, kinematics);
+    view(first, kinematics.ri, kinematics.rj, block);
+    block.dt = dt;
+    if (orientations_) bondlab::gather(t, first, style_->quat, turned);
+    run_block(block, kinematics, turned, advance, loads);
+    if (kind == FOREIGN) {
+      restore_foreign(block);
+      bondlab::scatter(t, first, atom->nlocal, loads, atom->f, atom->torque,
+                       [this](int row) { return computes(row); });
+    } else {
+      bondlab::scatter(t, first, atom->nlocal, loads, atom->f, atom->torque);
     }
-    if (!(t.info[row] & SEPARATED)) {
-      const double *a = atom->x[t.at_lo[row]], *b = atom->x[t.at_hi[row]];
-      const double d = std::sqrt((b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]) +
-                                 (b[2] - a[2]) * (b[2] - a[2]));
-      const double touching = ri_[row] + rj_[row];
-      // beyond both references neither contact is loaded, so the change makes no jump
-      if (d >= std::max(t.state[REFERENCE][row], touching)) {
-        t.info[row] |= SEPARATED;
-        t.state[REFERENCE][row] = touching;
+    if (advance) finish_step(block);
+  }
+}
+
+// Lays out one block for the law: state in place, unless other styles own some of the lanes.
+void BondBPM::view(int first, const double *ri, const double *rj, Block &b) {
+  PairTable &t = table();
+  const int kind = block_type_[first / kBlock], columns = t.columns();
+  b.first = first;
+  b.alive = own(ALIVE, first);
+  b.ri = ri;
+  b.rj = rj;
+  for (int c = 0; c < columns; c++) {
+    b.state[c] = t.block(c, first);
+    if (kind != FOREIGN) continue;
+    std::copy(b.state[c], b.state[c] + kBlock, b.kept[c]);
+    b.state[c] = b.kept[c];
+  }
+  for (int k = 0; k <= constants_; k++) {  // the last: E_t/E_c
+    const int place = k < constants_ ? place_[k] : -1;
+    const double *values;
+    if (place >= 0) {
+      values = own(place, first);
+    } else if (kind >= 0) {
+      values = of_type(kind, k);
+    } else {
+      for (int lane = 0; lane < kBlock; lane++) {
+        const int type = t.info[std::min(first + lane, t.size() - 1)] & TYPE_MASK;
+        b.scratch[k][lane] = *of_type(mine(type) ? type : fallback_type_, k);
       }
+      values = b.scratch[k];
+    }
+    if (k < constants_)
+      b.constant[k] = values;
+    else
+      b.options.tension = values;
+  }
+
+  b.with_options = any_options_;
+  if (any_options_) {
+    const double *tau = own(own_columns_ - 1, first), per_step = update->dt > 0.0 ? 1.0 / update->dt : 0.0;
+    double *viscous = b.scratch[kMostConstants];
+    for (int lane = 0; lane < kBlock; lane++) viscous[lane] = per_step * tau[lane];
+    b.options.viscous = viscous;
+    b.options.failure = own(own_columns_ - 2, first);
+    b.options.worst = b.state[LAW + style_->law_columns];
+    b.options.lost = b.state[LAW + style_->law_columns + 1];
+  }
+
+  double *kn = b.scratch[kMostConstants + 1], *ks = b.scratch[kMostConstants + 2],
+         *mu = b.scratch[kMostConstants + 3];
+  b.with_contact = grain_ != NULL;
+  b.contact = {b.state[REFERENCE], kn, ks, mu};
+  if (!grain_) {
+    for (int lane = 0; lane < kBlock; lane++) kn[lane] = ks[lane] = mu[lane] = 0.0;
+    return;
+  }
+  if (atom->ntypes == 1) {
+    grain_->constants_of_block(b.ri, b.rj, kn, ks, mu);
+  } else {
+    const int place = VARYING + varying_;
+    for (int k = 0; k < 3; k++)
+      std::copy(own(place + k, first), own(place + k, first) + kBlock, (k == 0 ? kn : (k == 1 ? ks : mu)));
+  }
+  if (kind >= 0 ? types_[kind].contact != 0.0 : !any_contact_off_) return;
+  double alive = 0.0;
+  for (int lane = 0; lane < kBlock; lane++) {
+    const int type = kind >= 0 ? kind : t.info[std::min(first + lane, t.size() - 1)] & TYPE_MASK;
+    const bool off = mine(type) && types_[type].contact == 0.0;
+    const double share = off ? 1.0 - b.alive[lane] : 1.0;
+    kn[lane] *= share;
+    ks[lane] *= share;
+    alive += 1.0 - share;
+  }
+  b.with_contact = alive != kBlock;
+}
+
+// Lanes of other styles leave their state as it was.
+void BondBPM::restore_foreign(Block &b) {
+  PairTable &t = table();
+  const int n = std::min(kBlock, t.size() - b.first);
+  for (int c = 0; c < t.columns(); c++)
+    for (int lane = 0; lane < n; lane++)
+      if (computes(b.first + lane)) t.value(c, b.first + lane) = b.kept[c][lane];
+}
+
+void BondBPM::finish_step(Block &b) {
+  double alive = 0.0;
+  for (int k = 0; k < kBlock; k++) alive += b.alive[k];
+  if (alive == kBlock) return;
+  PairTable &t = table();
+  const int n = std::min(kBlock, t.size() - b.first);
+  for (int k = 0; k < n; k++) {
+    const int row = b.first + k;
+    if (b.alive[k] != 0.0 || !computes(row)) continue;
+    if (b.report.fate[k] != 0.0) note_break(b, k);
+    if (t.info[row] & SEPARATED) continue;
+    // beyond both references neither contact is loaded, so the change makes no jump
+    const double touching = b.ri[k] + b.rj[k];
+    if (distance(row) >= std::max(state(REFERENCE, row), touching)) {
+      t.info[row] |= SEPARATED;
+      t.value(REFERENCE, row) = touching;
     }
   }
 }
 
-double BondBPM::contact_row_energy(int row) const {
+void BondBPM::note_break(Block &b, int lane) {
+  PairTable &t = table();
+  const int row = b.first + lane;
+  t.info[row] |= BROKEN;
+  // a contact that was switched off takes over from where the two are now, without a jump
+  const int type = t.info[row] & TYPE_MASK;
+  if (types_[type].contact == 0.0) t.value(REFERENCE, row) = std::min(state(REFERENCE, row), distance(row));
+  if (!counted_here(row)) return;
+  BreakEvent event;
+  event.step = update->ntimestep;
+  event.tag_lo = t.lo[row];
+  event.tag_hi = t.hi[row];
+  event.type = type;
+  const double share = b.ri[lane] / (b.ri[lane] + b.rj[lane]);
+  const double *p = atom->x[t.at_lo[row]], *q = atom->x[t.at_hi[row]];
+  for (int d = 0; d < 3; d++) event.x[d] = p[d] + share * (q[d] - p[d]);
+  event.mode = b.report.fate[lane] == static_cast<double>(BondFate::broken_in_shear);
+  event.sigma = b.report.sigma[lane];
+  event.tau = b.report.tau[lane];
+  strengths(row, event.sigma_c, event.tau_c);
+  style_->breaks.push_back(event);
+}
+
+double BondBPM::distance(int row) const {
   const PairTable &t = table();
   const double *a = atom->x[t.at_lo[row]], *b = atom->x[t.at_hi[row]];
   double d2 = 0.0;
   for (int d = 0; d < 3; d++) d2 += (b[d] - a[d]) * (b[d] - a[d]);
-  const double overlap = t.state[REFERENCE][row] - std::sqrt(d2);
-  double shear2 = 0.0;
-  for (int c = CSX; c <= (domain->dimension == 2 ? CSX : CSZ); c++)
-    shear2 += t.state[c][row] * t.state[c][row];
-  return contact_energy(overlap > 0.0 ? kn_c_[row] * overlap : 0.0, std::sqrt(shear2), kn_c_[row],
-                        ks_c_[row]);
+  return std::sqrt(d2);
 }
+
+double BondBPM::contact_row_energy(int row) const {
+  if (!grain_) return 0.0;
+  const PairTable &t = table();
+  if (types_[t.info[row] & TYPE_MASK].contact == 0.0 && intact(row)) return 0.0;
+  const double overlap = state(REFERENCE, row) - distance(row);
+  double shear2 = 0.0, kn, ks, mu;
+  for (int c = CSX; c <= (flat() ? CSX : CSZ); c++) shear2 += state(c, row) * state(c, row);
+  grain_->constants(atom->type[t.at_lo[row]], atom->type[t.at_hi[row]], atom->radius[t.at_lo[row]],
+                    atom->radius[t.at_hi[row]], kn, ks, mu);
+  return contact_energy(overlap > 0.0 ? kn * overlap : 0.0, std::sqrt(shear2), kn, ks);
+}
+
+BondBPM::Stiffness BondBPM::whole_stiffness(int row, double &damping_time) const {
+  const PairTable &t = table();
+  Stiffness s = stiffness(row);
+  const BondOptions &options = types_[t.info[row] & TYPE_MASK];
+  damping_time = any_options_ && intact(row) ? own_value(own_columns_ - 1, row) : 0.0;
+  s.normal *= std::max(1.0, options.tension);
+  if (grain_) {
+    double kn, ks, mu;
+    grain_->constants(atom->type[t.at_lo[row]], atom->type[t.at_hi[row]], atom->radius[t.at_lo[row]],
+                      atom->radius[t.at_hi[row]], kn, ks, mu);
+    s.normal += kn;  // also where the contact waits for the bond to break
+    s.shear += ks;
+  }
+  return s;
+}
+
+void BondBPM::create(const double *, const double *, const double *, const double *, double *) const {}
 
 double BondBPM::equilibrium_distance(int) { return 0.0; }
 
@@ -182,5 +245,5 @@ double BondBPM::single(int, double, int, int, double &fforce) {
 }
 
 double BondBPM::memory_usage() {
-  return 8.0 * sizeof(double) * padded();
+  return sizeof(double) * (own_.size() + of_type_.size()) + sizeof(int) * block_type_.size();
 }

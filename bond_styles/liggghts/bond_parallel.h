@@ -20,29 +20,35 @@ namespace LAMMPS_NS {
 class BondParallel : public BondBPM {
  public:
   explicit BondParallel(class LAMMPS *);
-  ~BondParallel();
-  void compute(int, int);
-  void coeff(int, char **);
-  void init_style();
-  double row_energy(int row);
-  void stiffness(int row, double &translational, double &coupling, double &rotational);
-  void write_restart(FILE *);
-  void read_restart(FILE *);
+  Values values(int row);
+  Stiffness stiffness(int row) const;
 
  protected:
-  void derive(int row);
-  void resize_constants(int padded);
+  void block_3d(Block &, const bondlab::laws::Kinematics3 &, const bondlab::laws::Orientations3 &,
+                bool advance, bondlab::laws::PairLoads3 &);
+  void block_2d(Block &, const bondlab::laws::Kinematics2 &, const bondlab::laws::Orientations2 &,
+                bool advance, bondlab::laws::PairLoads2 &);
+  void constants(const Pair &, double *) const;
+  bool varies(int type, int constant) const;
+  Opening opening(const Pair &, const double *constants) const;
+  void strengths(int row, double &sigma_c, double &tau_c) const;
+  void read_coefficients(BondCoefficients &, int lo, int hi);
+  std::vector<double> coefficients(int type) const;
+  void set_coefficients(int type, const std::vector<double> &);
 
  private:
+  enum State { FSX, FSY, FSZ, MBX, MBY, MBZ, MT, STATES };  // in 2D FSX and MBX alone
+  enum Constant { RADIUS_FACTOR, MODULUS, RATIO, BETA, TAN_PHI, SIGMA_C, TAU_C, CONSTANTS };
   struct Type {
     bondlab::laws::ParallelParameters law;
     bondlab::laws::StrengthDistribution sigma, tau;
   };
-  std::vector<Type> types_;  // [nbondtypes + 1]
-  std::vector<double> radius_, stiffness_, ratio_, beta_, tan_phi_;
-  void allocate();
-  template <bool advance>
-  void compute_blocks();
+  std::vector<Type> kinds_;  // [nbondtypes + 1]
+  bondlab::laws::BondSection section(int row, double &kn, double &ks) const;
+  template <bool advance, bool options, bool contact>
+  void block(Block &, const bondlab::laws::Kinematics3 &, bondlab::laws::PairLoads3 &);
+  template <bool advance, bool options, bool contact>
+  void block(Block &, const bondlab::laws::Kinematics2 &, bondlab::laws::PairLoads2 &);
 };
 
 }  // namespace LAMMPS_NS

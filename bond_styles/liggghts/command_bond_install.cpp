@@ -28,7 +28,7 @@ void CommandBondInstall::bad(const std::string &text) const {
 void CommandBondInstall::command(int narg, char **arg) {
   if (!domain->box_exist) bad("read a specimen first (read_data or read_restart)");
   style_ = AtomVecBondedSphere::of(lmp, "bond_install");
-  if (!dynamic_cast<BondBPM *>(force->bond))
+  if (BondBPM::all(lmp).empty())
     bad("give `bond_style` (a BondLab style) before `bond_install`");
   if (!force->pair) bad("give `pair_style grain` before `bond_install`: it sets the reach of neighbour lists");
   if (narg < 3)
@@ -45,6 +45,12 @@ void CommandBondInstall::command(int narg, char **arg) {
   if (type < 1 || type > atom->nbondtypes)
     bad("bond type " + std::to_string(type) + " is not between 1 and " +
         std::to_string(atom->nbondtypes) + " (`bond types` in the data file)");
+
+  bond_style_ = NULL;
+  for (BondBPM *style : BondBPM::all(lmp))
+    if (style->mine(type)) bond_style_ = style;
+  if (!bond_style_)
+    bad("give `bond_coeff` for bond type " + std::to_string(type) + " before `bond_install`");
 
   int mine;
   if (!strcmp(arg[1], "gap")) {
@@ -92,9 +98,12 @@ void CommandBondInstall::install(int a, int b, int type) {
   for (int d = 0; d < 3; d++)
     distance2 += (atom->x[a][d] - atom->x[b][d]) * (atom->x[a][d] - atom->x[b][d]);
   const double distance = std::sqrt(distance2);
-  double values[16] = {0.0};
+  std::vector<double> values(style_->bonds.columns(), 0.0);
   values[BondBPM::REST] = values[BondBPM::REFERENCE] = distance;
-  style_->bonds.append(atom->tag[a], atom->tag[b], type, values);
+  if (atom->tag[a] > atom->tag[b]) std::swap(a, b);
+  bond_style_->create(atom->x[a], atom->x[b], style_->quat[a], style_->quat[b],
+                      values.data() + BondBPM::LAW);
+  style_->bonds.append(atom->tag[a], atom->tag[b], type, values.data());
 }
 
 // Cells of the size of the reach; every own particle looks at its own and the neighbouring cells.

@@ -27,6 +27,7 @@ class CommandBondInstall : protected Pointers {
 
  private:
   class AtomVecBondedSphere *style_;
+  class BondBPM *bond_style_;  // of the type being installed
   int group_bit_;
   [[noreturn]] void bad(const std::string &text) const;
   void ghosts(double reach);

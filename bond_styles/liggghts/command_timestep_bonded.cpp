@@ -30,35 +30,42 @@
 
 using namespace LAMMPS_NS;
 
-double CommandTimestepBonded::frequency_bound(LAMMPS *lmp) {
+double CommandTimestepBonded::frequency_bound(LAMMPS *lmp, double &damping_time) {
   Atom *atom = lmp->atom;
-  BondBPM *bond = dynamic_cast<BondBPM *>(lmp->force->bond);
+  const std::vector<BondBPM *> styles = BondBPM::all(lmp);
   const double inertia_factor = lmp->domain->dimension == 2 ? 0.5 : 0.4;
-  bond->refresh();
-  const bondlab::PairTable &t = bond->style()->bonds;
+  for (BondBPM *style : styles) style->refresh();
+  const bondlab::PairTable &t = styles[0]->style()->bonds;
   const int nlocal = atom->nlocal;
+  double longest = 0.0;
   std::vector<double> move(nlocal, 0.0), turn(nlocal, 0.0);
   for (int row = 0; row < t.size(); row++) {
-    double k, ks, kb;
-    bond->stiffness(row, k, ks, kb);
+    BondBPM::Stiffness stiffness{0.0, 0.0, 0.0, 0.0};
+    double dashpot = 0.0;
+    for (BondBPM *style : styles)
+      if (style->computes(row)) stiffness = style->whole_stiffness(row, dashpot);
+    const double k = std::max(stiffness.normal, stiffness.shear), ks = stiffness.shear;
+    const double kb = std::max(stiffness.bend, stiffness.twist);
+    longest = std::max(longest, dashpot);
     const int ends[2] = {t.at_lo[row], t.at_hi[row]};
     const int own[2] = {t.own_lo[row], t.own_hi[row]};
     for (int side = 0; side < 2; side++) {
       const int i = own[side];
       if (i >= nlocal) continue;
       const double ri = atom->radius[ends[side]], rj = atom->radius[ends[1 - side]];
-      const double arm = t.state[BondBPM::REST][row] / (ri + rj);
+      const double arm = t.value(BondBPM::REST, row) / (ri + rj);
       move[i] += 2.0 * k + 2.0 * arm * ks;
       turn[i] += 2.0 * arm * (1.0 + arm) * ks + kb * (1.0 / (ri * ri) + 1.0 / (ri * rj));
     }
   }
-  double highest = 0.0, all = 0.0;
+  double highest[2] = {0.0, longest}, all[2] = {0.0, 0.0};
   for (int i = 0; i < nlocal; i++) {
-    highest = std::max(highest, move[i] / atom->rmass[i]);
-    highest = std::max(highest, turn[i] / (inertia_factor * atom->rmass[i]));
+    highest[0] = std::max(highest[0], move[i] / atom->rmass[i]);
+    highest[0] = std::max(highest[0], turn[i] / (inertia_factor * atom->rmass[i]));
   }
-  MPI_Allreduce(&highest, &all, 1, MPI_DOUBLE, MPI_MAX, lmp->world);
-  return all;
+  MPI_Allreduce(highest, all, 2, MPI_DOUBLE, MPI_MAX, lmp->world);
+  damping_time = all[1];
+  return all[0];
 }
 
 void CommandTimestepBonded::command(int narg, char **arg) {
@@ -69,7 +76,7 @@ void CommandTimestepBonded::command(int narg, char **arg) {
         std::string("timestep_bonded: SAFETY is ") + arg[0] + ", it must be above 0 and at most 1";
     error->all(FLERR, text.c_str());
   }
-  if (!dynamic_cast<BondBPM *>(force->bond))
+  if (BondBPM::all(lmp).empty())
     error->all(FLERR, "timestep_bonded: there is no BondLab bond style");
   lmp->init();
   domain->pbc();
@@ -79,9 +86,12 @@ void CommandTimestepBonded::command(int narg, char **arg) {
   comm->exchange();
   comm->borders();
   AtomVecBondedSphere::of(lmp, "timestep_bonded")->mark_stale();
-  const double omega2 = frequency_bound(lmp);
+  double damping_time = 0.0;
+  const double omega2 = frequency_bound(lmp, damping_time);
   if (!(omega2 > 0.0)) error->all(FLERR, "timestep_bonded: no bonds are installed, so there is no frequency to take a step from");
-  update->dt = safety * 2.0 / std::sqrt(omega2);
+  // a dashpot proportional to stiffness damps the highest mode most
+  const double omega = std::sqrt(omega2), zeta = 0.5 * omega * damping_time;
+  update->dt = safety * 2.0 / omega * (std::sqrt(1.0 + zeta * zeta) - zeta);
   if (force->pair) force->pair->reset_dt();
   if (comm->me == 0) {
     const char *form = "  time step %.6g s (%g of the bound 2/omega)\n";

@@ -130,6 +130,23 @@ void PairGrain::constants(int itype, int jtype, double ri, double rj, double &kn
   mu = friction_[itype][jtype];
 }
 
+void PairGrain::constants_of_block(const double *__restrict ri, const double *__restrict rj,
+                                   double *__restrict kn, double *__restrict ks,
+                                   double *__restrict mu) const {
+  const double modulus = modulus_[1][1], ratio = ratio_[1][1], friction = friction_[1][1];
+  if (domain->dimension == 2) {
+    const double k = in_series(grain_stiffness_2d(style_->thickness, modulus),
+                               grain_stiffness_2d(style_->thickness, modulus));
+    for (int b = 0; b < kBlock; b++) kn[b] = k, ks[b] = k / ratio, mu[b] = friction;
+    return;
+  }
+  for (int b = 0; b < kBlock; b++) {
+    kn[b] = modulus > 0.0 ? in_series(grain_stiffness_3d(ri[b], modulus), grain_stiffness_3d(rj[b], modulus)) : 0.0;
+    ks[b] = kn[b] / ratio;
+    mu[b] = friction;
+  }
+}
+
 // Takes the rows anew from the neighbour list; pairs in the bond table are the bond style's.
 void PairGrain::refresh() {
   style_->index_tables();
@@ -149,7 +166,7 @@ void PairGrain::refresh() {
       if (bonds.find(a, b) >= 0) continue;
       const int old = t.find(a, b);
       if (old >= 0)
-        for (int c = 0; c < 3; c++) values[c] = t.state[c][old];
+        for (int c = 0; c < 3; c++) values[c] = t.value(c, old);
       fresh.append(a, b, 0, old >= 0 ? values : none);
     }
   }
@@ -159,13 +176,11 @@ void PairGrain::refresh() {
   t = std::move(fresh);
 
   const int n = t.size(), padded = static_cast<int>(t.at_lo.size());
-  for (auto *v : {&reference_, &kn_, &ks_, &mu_, &ri_, &rj_}) v->assign(padded, 0.0);
+  for (auto *v : {&reference_, &kn_, &ks_, &mu_}) v->assign(padded, 0.0);
   for (int k = 0; k < padded; k++) {
     const int row = std::min(k, n - 1), i = t.at_lo[row], j = t.at_hi[row];
-    ri_[k] = atom->radius[i];
-    rj_[k] = atom->radius[j];
-    reference_[k] = ri_[k] + rj_[k];
-    constants(atom->type[i], atom->type[j], ri_[k], rj_[k], kn_[k], ks_[k], mu_[k]);
+    reference_[k] = atom->radius[i] + atom->radius[j];
+    constants(atom->type[i], atom->type[j], atom->radius[i], atom->radius[j], kn_[k], ks_[k], mu_[k]);
   }
 }
 
@@ -178,23 +193,22 @@ void PairGrain::compute(int eflag, int vflag) {
   PairTable &t = style_->contacts;
   const bool advance = !update->setupflag;
   const double dt = advance ? update->dt : 0.0;
+  const bondlab::ParticleRecords &records = style_->fill_records();
   for (int first = 0; first < t.size(); first += kBlock) {
     const ContactParameters c{reference_.data() + first, kn_.data() + first, ks_.data() + first,
                               mu_.data() + first};
     if (domain->dimension == 2) {
       Kinematics2 k;
       PairLoads2 loads;
-      bondlab::gather(t, first, dt, atom->x, atom->v, atom->omega, ri_.data() + first,
-                      rj_.data() + first, k);
-      contact_block_2d(k, c, advance, t.state[0].data() + first, loads);
+      bondlab::gather(t, first, dt, records, k);
+      contact_block_2d(k, c, advance, t.block(0, first), loads);
       bondlab::scatter(t, first, atom->nlocal, loads, atom->f, atom->torque);
     } else {
       Kinematics3 k;
       PairLoads3 loads;
-      bondlab::gather(t, first, dt, atom->x, atom->v, atom->omega, ri_.data() + first,
-                      rj_.data() + first, k);
-      contact_block_3d(k, c, advance, t.state[0].data() + first, t.state[1].data() + first,
-                       t.state[2].data() + first, loads);
+      bondlab::gather(t, first, dt, records, k);
+      contact_block_3d(k, c, advance, t.block(0, first), t.block(1, first),
+                       t.block(2, first), loads);
       bondlab::scatter(t, first, atom->nlocal, loads, atom->f, atom->torque);
     }
   }
@@ -223,4 +237,4 @@ void PairGrain::read_restart(FILE *fp, const int, const int) {
     }
 }
 
-double PairGrain::memory_usage() { return Pair::memory_usage() + 6.0 * sizeof(double) * kn_.size(); }
+double PairGrain::memory_usage() { return Pair::memory_usage() + 4.0 * sizeof(double) * kn_.size(); }

@@ -34,6 +34,9 @@ class PairGrain : public Pair {
   // Contact of a particle of type i (radius ri, m) with one of type j: N/m, N/m, 1.
   void constants(int itype, int jtype, double ri, double rj, double &kn, double &ks,
                  double &mu) const;
+  // The same for a block of pairs (laws/bond_batch.h) of particles that are all of type 1.
+  void constants_of_block(const double *ri, const double *rj, double *kn, double *ks,
+                          double *mu) const;
   // Visits this rank's share of the unbonded contacts: (kn, ks, overlap, shear force), each once.
   template <class Visit>
   void for_each_contact(Visit visit) const;
@@ -56,7 +59,7 @@ class PairGrain : public Pair {
   double **modulus_, **ratio_, **friction_;  // [ntypes+1][ntypes+1]: Pa, 1, 1
   bigint seen_generation_;
   double largest_radius_;
-  std::vector<double> reference_, kn_, ks_, mu_, ri_, rj_;
+  std::vector<double> reference_, kn_, ks_, mu_;
   void allocate();
 };
 
@@ -69,7 +72,7 @@ void PairGrain::for_each_contact(Visit visit) const {
     double d2 = 0.0, s2 = 0.0;
     for (int d = 0; d < 3; d++) {
       d2 += (b[d] - a[d]) * (b[d] - a[d]);
-      s2 += t.state[d][row] * t.state[d][row];
+      s2 += t.value(d, row) * t.value(d, row);
     }
     const double overlap = reference_[row] - std::sqrt(d2);
     if (overlap > 0.0) visit(kn_[row], ks_[row], overlap, std::sqrt(s2));

@@ -35,11 +35,26 @@ void permute(std::vector<T> &v, const std::vector<int> &order) {
 
 }  // namespace
 
-PairTable::PairTable(int columns) : state(columns) {}
+PairTable::PairTable(int columns) : columns_(columns) {}
+
+void PairTable::resize_state() {
+  state_.resize(static_cast<std::size_t>(padded()) * columns_, 0.0);
+}
+
+void PairTable::widen(int columns) {
+  if (columns <= columns_) return;
+  PairTable wide(columns);
+  wide.lo = lo;
+  wide.resize_state();
+  for (int row = 0; row < size(); ++row)
+    for (int c = 0; c < columns_; ++c) wide.value(c, row) = value(c, row);
+  state_.swap(wide.state_);
+  columns_ = columns;
+}
 
 void PairTable::clear() {
   for (auto *v : {&lo, &hi, &info, &at_lo, &at_hi, &own_lo, &own_hi}) v->clear();
-  for (auto &column : state) column.clear();
+  state_.clear();
   slot_begin_.clear();
   slot_end_.clear();
   slot_rows_.clear();
@@ -50,10 +65,8 @@ int PairTable::append(int tag_a, int tag_b, int information, const double *value
   lo.push_back(std::min(tag_a, tag_b));
   hi.push_back(std::max(tag_a, tag_b));
   info.push_back(information);
-  for (int c = 0; c < columns(); ++c) {
-    state[c].resize(row);  // sheds the padding of the last index()
-    state[c].push_back(values[c]);
-  }
+  resize_state();
+  for (int c = 0; c < columns_; ++c) value(c, row) = values[c];
   return row;
 }
 
@@ -84,13 +97,19 @@ void PairTable::reorder(const std::vector<int> &order) {
   permute(lo, order);
   permute(hi, order);
   permute(info, order);
-  for (auto &column : state) permute(column, order);
+  PairTable ordered(columns_);
+  ordered.lo = lo;
+  ordered.resize_state();
+  for (int row = 0; row < size(); ++row)
+    for (int c = 0; c < columns_; ++c) ordered.value(c, row) = value(c, order[row]);
+  state_.swap(ordered.state_);
 }
 
 void PairTable::pad() {
-  const int block = laws::kBlock, n = size(), padded = (n + block - 1) / block * block;
-  for (auto *v : {&at_lo, &at_hi, &own_lo, &own_hi}) v->resize(padded, n ? v->at(n - 1) : 0);
-  for (auto &column : state) column.resize(padded, n ? column[n - 1] : 0.0);
+  const int n = size(), all = padded();
+  for (auto *v : {&at_lo, &at_hi, &own_lo, &own_hi}) v->resize(all, n ? v->at(n - 1) : 0);
+  for (int row = n; row < all; ++row)
+    for (int c = 0; c < columns_; ++c) value(c, row) = value(c, n - 1);
 }
 
 int PairTable::index(int nlocal, const std::function<int(int)> &tag_to_index,
@@ -157,12 +176,12 @@ int PairTable::packed_size(int slot) const { return 1 + rows_of(slot) * (2 + col
 
 int PairTable::pack(int slot, double *buffer) const {
   int m = 0;
-  buffer[m++] = two_ints(rows_of(slot), columns());
+  buffer[m++] = two_ints(rows_of(slot), columns_);
   for (int k = 0; k < rows_of(slot); ++k) {
     const int row = row_of(slot, k);
     buffer[m++] = two_ints(lo[row], hi[row]);
     buffer[m++] = two_ints(info[row], 0);
-    for (const auto &column : state) buffer[m++] = column[row];
+    for (int c = 0; c < columns_; ++c) buffer[m++] = value(c, row);
   }
   return m;
 }
@@ -170,6 +189,8 @@ int PairTable::pack(int slot, double *buffer) const {
 int PairTable::unpack(const double *buffer, int new_slot) {
   int m = 0, rows, width, a, b, information, unused;
   split_ints(buffer[m++], rows, width);
+  if (rows > 0) widen(width);  // a restart file may come before the commands that ask for columns
+  std::vector<double> values(columns_, 0.0);
   if (static_cast<int>(slot_end_.size()) <= new_slot) {
     slot_begin_.resize(new_slot + 1, static_cast<int>(slot_rows_.size()));
     slot_end_.resize(new_slot + 1, static_cast<int>(slot_rows_.size()));
@@ -179,7 +200,8 @@ int PairTable::unpack(const double *buffer, int new_slot) {
     split_ints(buffer[m], a, b);
     split_ints(buffer[m + 1], information, unused);
     m += 2;
-    slot_rows_.push_back(append(a, b, information, buffer + m));
+    std::copy(buffer + m, buffer + m + width, values.begin());
+    slot_rows_.push_back(append(a, b, information, values.data()));
     m += width;
   }
   slot_end_[new_slot] = static_cast<int>(slot_rows_.size());

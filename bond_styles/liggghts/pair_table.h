@@ -16,8 +16,9 @@
 // put in order again (index()).
 //
 // Row = tags, an integer the owner of the table may use (type, flags), and `columns` doubles of
-// state. Engine-free but for MPI-less plain arrays; memory per row: 5 int + columns double, plus the
-// derived arrays the owner keeps beside it.
+// state. State is kept by blocks of kBlock rows, all columns of a block together: a step walks through
+// one stretch of memory, not through as many as there are columns (on 175,000 bonds the latter took
+// a third longer). Engine-free plain arrays; memory per row: 7 int + columns double.
 //
 // Failure: index() reports the first row whose partner is neither here nor a ghost.
 #ifndef BONDLAB_PAIR_TABLE_H
@@ -26,6 +27,9 @@
 #include <functional>
 #include <vector>
 
+#include "huge_vector.h"
+#include "laws/bond_batch.h"
+
 namespace bondlab {
 
 class PairTable {
@@ -33,12 +37,17 @@ class PairTable {
   explicit PairTable(int columns);
 
   int size() const { return static_cast<int>(lo.size()); }
-  int columns() const { return static_cast<int>(state.size()); }
+  int columns() const { return columns_; }
+  int padded() const { return (size() + laws::kBlock - 1) / laws::kBlock * laws::kBlock; }
+  // More columns, 0 in the rows that are here.
+  void widen(int columns);
 
   // [size] tags of the two particles, lo < hi, and the owner's integer
   std::vector<int> lo, hi, info;
-  // [columns][size padded to whole blocks]
-  std::vector<std::vector<double>> state;
+  double &value(int column, int row) { return *place(column, row); }
+  double value(int column, int row) const { return *const_cast<PairTable *>(this)->place(column, row); }
+  // The kBlock values of a column in the block that begins at row `first`.
+  double *block(int column, int first) { return place(column, first); }
   // [padded] where the two particles are: `at_*` positions (maybe a ghost image),
   // `own_*` where their force goes (the local particle if it is here)
   std::vector<int> at_lo, at_hi, own_lo, own_hi;
@@ -74,6 +83,13 @@ class PairTable {
   double bytes() const;
 
  private:
+  int columns_;
+  HugeVector state_;  // [blocks][columns][kBlock]
+  double *place(int column, int row) {
+    const std::size_t b = row / laws::kBlock, lane = row % laws::kBlock;
+    return state_.data() + (b * columns_ + column) * laws::kBlock + lane;
+  }
+  void resize_state();
   std::vector<int> slot_begin_, slot_end_, slot_rows_;
 
   void reorder(const std::vector<int> &order);
