@@ -16,7 +16,6 @@
 #include "fix_arguments.h"
 #include "force.h"
 #include "memory.h"
-#include "platen_motion.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -37,6 +36,7 @@ void FixPlaten::init() {
     stop_with_error(
         lmp, this,
         std::string("needs `run_style verlet`, this run has '") + update->integrate_style + "'");
+  motion_.init();
 }
 
 void FixPlaten::setup(int) {
@@ -52,13 +52,13 @@ void FixPlaten::stand() {
     now_.point = now_.point + touch_shift_ * along_;
   else
     bondlab::close_gap(now_, touch_shift_);
-  now_.point = now_.point + vec(moved_);
+  now_.point = now_.point + vec(motion_.moved());
 }
 
 // First use: touch the specimen, start the clock.
 void FixPlaten::place() {
   placed_ = true;
-  clock_.start(0.0, update->ntimestep, update->dt);
+  motion_.start(update->ntimestep, update->dt);
   if (touch_) {
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < atom->nlocal; i++) {
@@ -98,30 +98,17 @@ void FixPlaten::check_nothing_is_behind() {
                         "inside|outside, or use `touch`");
 }
 
-double FixPlaten::speed_now(int c) const {
-  return c == servo_ ? servo_speed_ : speed_[c] * bondlab::ramp_speed(clock_.now, ramp_);
-}
-
 void FixPlaten::initial_integrate(int) {
-  clock_.advance(update->ntimestep, update->dt);
-  const double far = bondlab::ramp_distance(clock_.now, ramp_);
-  double step[3];
-  for (int c = 0; c < 3; c++) {
-    double to = speed_[c] * far;
-    if (c == servo_) {
-      servo_speed_ = bondlab::servo_speed(force_[c], servo_force_, servo_gain_, servo_limit_);
-      to = moved_[c] + servo_speed_ * update->dt;
-    }
-    step[c] = to - moved_[c];
-    moved_[c] = to;
-  }
-  step_motion_ = vec(step);
+  motion_.advance(update->ntimestep, update->dt, force_);
+  step_motion_ = vec(motion_.step());
   stand();
 }
 
 void FixPlaten::post_force(int) {
   apply(true);
-  if (servo_ >= 0) reduce();
+  if (!motion_.needs_force()) return;
+  reduce();
+  motion_.finish(update->dt, force_);
 }
 
 // Few particles touch: a quick sweep finds them, and those that have just ceased to.
@@ -186,8 +173,8 @@ void FixPlaten::reduce() {
 }
 
 double FixPlaten::compute_vector(int n) {
-  if (n >= 6 && n < 9) return moved_[n - 6];
-  if (n >= 9 && n < 12) return speed_now(n - 9);
+  if (n >= 6 && n < 9) return motion_.moved()[n - 6];
+  if (n >= 9 && n < 12) return motion_.speed(n - 9);
   if (n == 13) return touch_shift_;
   reduce();
   if (n < 6) return total_[n];
@@ -195,4 +182,4 @@ double FixPlaten::compute_vector(int n) {
 }
 
 // `reset_timestep` between runs: the clock keeps its time.
-void FixPlaten::reset_timestep(bigint to, bigint from) { clock_.renumber(to, from); }
+void FixPlaten::reset_timestep(bigint to, bigint from) { motion_.renumber(to, from); }

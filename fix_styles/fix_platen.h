@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later
 
    Job: `fix platen`: a rigid, analytic loading platen (plane, cylinder or sphere) that moves at a
-   speed reached by a smooth ramp, or holds a force by a servo, and reports force, torque and
-   motion.
+   speed, after a drive, on a frame, freely, or holds a force, and reports force, torque and motion.
 
-   Geometry, contact law and motion are in platen_geometry.h, platen_law.h and platen_motion.h; here
+   Geometry, contact law and motion are in platen_geometry.h, platen_law.h and fix_motion.h; here
    they meet the engine. The platen stands on every rank alike; its force is an exact sum, so all
    that is reported, and the servo, have the same bits on any number of ranks. It moves in
    initial_integrate, to the time at which forces are then computed. Nothing moves and no history
@@ -28,9 +27,9 @@ FixStyle(platen,FixPlaten)
 
 #include "exact_sum.h"
 #include "fix.h"
+#include "fix_motion.h"
 #include "platen_geometry.h"
 #include "platen_law.h"
-#include "step_clock.h"
 
 namespace LAMMPS_NS {
 
@@ -64,19 +63,14 @@ class FixPlaten : public Fix {
   bondlab::PlatenGeometry surface_;  // as given in the deck
   bondlab::PlatenStiffness stiffness_;
   double ratio_, friction_;
-  double speed_[3], ramp_;  // m/s, s
-  int servo_;               // component, -1: none
-  double servo_force_, servo_gain_, servo_limit_;
+  FixMotion motion_;
   bool touch_, touch_along_;
   bondlab::Vec3 along_;  // unit; direction of the approach
 
   // state, replicated and restarted
-  bool placed_;               // touched, and the clock started
-  double touch_shift_;        // m
-  bondlab::StepClock clock_;  // since placed
-  double moved_[3];           // m
-  double servo_speed_;        // m/s
-  double force_[3];           // on the platen, N (what the servo works on)
+  bool placed_;         // touched, and the clock started
+  double touch_shift_;  // m
+  double force_[3];     // on the platen, N (what moves it, if anything does)
 
   double **history_;         // [nmax][6]: shear force (N) and normal of PlatenHistory
   unsigned char *touching_;  // [nmax]: 1 if the history isn't empty
@@ -96,7 +90,6 @@ class FixPlaten : public Fix {
   void place();
   void check_nothing_is_behind();
   void stand();
-  double speed_now(int component) const;
   void apply(bool advance);
   void apply_to(int i, bool advance);
   void note_touching(int i);

@@ -42,19 +42,12 @@ FixPlaten::FixPlaten(LAMMPS *lmp, int narg, char **arg)
     : Fix(lmp, narg, arg),
       ratio_(1.0),
       friction_(0.0),
-      speed_{0, 0, 0},
-      ramp_(0.0),
-      servo_(-1),
-      servo_force_(0.0),
-      servo_gain_(0.0),
-      servo_limit_(0.0),
+      motion_(lmp, this),
       touch_(false),
       touch_along_(false),
       along_{0, 0, 0},
       placed_(false),
       touch_shift_(0.0),
-      moved_{0, 0, 0},
-      servo_speed_(0.0),
       force_{0, 0, 0},
       history_(NULL),
       touching_(NULL),
@@ -121,7 +114,7 @@ void FixPlaten::read_arguments(int narg, char **arg) {
 }
 
 void FixPlaten::read_keywords(FixArguments &a) {
-  bool stiffness = false, ratio = false, velocity = false, at_rest = false;
+  bool stiffness = false, ratio = false;
   while (a.more()) {
     const bool modulus = a.next_is("modulus");
     if (modulus || a.next_is("stiffness_per_radius")) {
@@ -142,29 +135,15 @@ void FixPlaten::read_keywords(FixArguments &a) {
       touch_along_ = a.next_is("along");
       if (touch_along_)
         along_ = unit(a, read_vector(a, "a component of `touch along`"), "`touch along`");
-    } else if (a.next_is("velocity")) {
-      velocity = true;
-      for (double &s : speed_) s = a.number("a component of the velocity (m/s)");
-      if (a.next_is("ramp")) ramp_ = a.number("ramp (s)", FixArguments::NOT_NEGATIVE);
-    } else if (a.next_is("servo")) {
-      servo_ = a.choice("the force of the servo", "fx|fy|fz");
-      servo_force_ = a.number("the force of the servo (N)");
-      if (!a.next_is("gain")) a.fail("servo needs `gain G` (m/s per N) after the force");
-      servo_gain_ = a.number("gain (m/s per N)", FixArguments::POSITIVE);
-      if (!a.next_is("vmax")) a.fail("servo needs `vmax V` (m/s) after the gain");
-      servo_limit_ = a.number("vmax (m/s)", FixArguments::POSITIVE);
-    } else if (a.next_is("at_rest")) {
-      at_rest = true;
-    } else {
-      a.unknown_keyword(
-          "touch, modulus, stiffness_per_radius, ratio, friction, velocity, servo, at_rest");
+    } else if (!motion_.read(a)) {
+      a.unknown_keyword((std::string("touch, modulus, stiffness_per_radius, ratio, friction, ") +
+                         FixMotion::keywords())
+                            .c_str());
     }
   }
   if (!stiffness) a.fail("needs a stiffness: `modulus E` (Pa) or `stiffness_per_radius K` (N/m2)");
   if (friction_ > 0.0 && !ratio) a.fail("friction needs `ratio kn/ks` as well");
-  if (at_rest && (velocity || servo_ >= 0)) a.fail("at_rest can't be used with velocity or servo");
-  if (servo_ >= 0 && speed_[servo_] != 0.0)
-    a.fail("velocity and servo are both given for the same direction");
+  motion_.check(a);
 }
 
 void FixPlaten::check_arguments(const FixArguments &a) const {
@@ -176,7 +155,6 @@ void FixPlaten::check_arguments(const FixArguments &a) const {
   if (surface_.surface == Surface::plane && d.z != 0.0)
     a.fail("the normal of a plane must have no z component in 2D");
   if (along_.z != 0.0) a.fail("`touch along` must have no z component in 2D");
-  if (speed_[2] != 0.0 || servo_ == 2) a.fail("the platen can't move along z in 2D");
 }
 
 // ---- per-particle arrays ----
@@ -240,20 +218,20 @@ namespace {
 struct PlatenState {
   double surface;  // to recognise another platen of the same name
   double placed, touch_shift;
-  bondlab::StepClock clock;
-  double moved[3], servo_speed, force[3];
+  double motion[FixMotion::state_size];
+  double force[3];
 };
 }  // namespace
 
 void FixPlaten::write_restart(FILE *fp) {
   if (comm->me != 0) return;
-  const PlatenState state = {static_cast<double>(surface_.surface),
-                             placed_ ? 1.0 : 0.0,
-                             touch_shift_,
-                             clock_,
-                             {moved_[0], moved_[1], moved_[2]},
-                             servo_speed_,
-                             {force_[0], force_[1], force_[2]}};
+  PlatenState state = {};
+  state.surface = static_cast<double>(surface_.surface);
+  state.placed = placed_ ? 1.0 : 0.0;
+  state.touch_shift = touch_shift_;
+  const std::vector<double> motion = motion_.state();
+  std::copy(motion.begin(), motion.end(), state.motion);
+  std::copy(force_, force_ + 3, state.force);
   const int size = sizeof state;
   fwrite(&size, sizeof size, 1, fp);
   fwrite(&state, sizeof state, 1, fp);
@@ -266,9 +244,7 @@ void FixPlaten::restart(char *buf) {
     stop_with_error(lmp, this, "the restart file holds a platen of this name with another surface");
   placed_ = state.placed != 0.0;
   touch_shift_ = state.touch_shift;
-  clock_ = state.clock;
-  std::copy(state.moved, state.moved + 3, moved_);
-  servo_speed_ = state.servo_speed;
+  motion_.set_state(state.motion);
   std::copy(state.force, state.force + 3, force_);
   stand();
 }

@@ -38,8 +38,10 @@ FixStopPeak::FixStopPeak(LAMMPS *lmp, int narg, char **arg)
     } else if (a.next_is("max_abs")) {
       second_.reset(new FixValueSource(lmp, this, a.word("the second value")));
       watch_.limit = a.number("the limit of the second value", FixArguments::NOT_NEGATIVE);
+    } else if (a.next_is("unless")) {
+      excuse_.reset(new FixValueSource(lmp, this, a.word("the value that excuses a fall")));
     } else {
-      a.unknown_keyword("drop, min, max_abs");
+      a.unknown_keyword("drop, min, max_abs, unless");
     }
   }
   if (!drop) a.fail("needs `drop FRACTION`");
@@ -51,6 +53,7 @@ int FixStopPeak::setmask() { return END_OF_STEP | POST_RUN; }
 void FixStopPeak::init() {
   value_->init(nevery);
   if (second_) second_->init(nevery);
+  if (excuse_) excuse_->init(nevery);
   ended_this_run_ = false;
 }
 
@@ -62,10 +65,15 @@ void FixStopPeak::end_of_step() {
   if (stopped_) return;
   modify->clearstep_compute();
   const double value = value_->evaluate();
+  const bool excused = excuse_ && excuse_->evaluate() != 0.0;
   const double second = second_ ? std::fabs(second_->evaluate()) : 0.0;
   modify->addstep_compute(update->ntimestep + nevery);
 
-  stopped_ = second_ ? watch_.look(value, second) : watch_.look(value);
+  if (excused) {
+    stopped_ = second_ && second > watch_.limit ? PeakWatch::limit_reached : PeakWatch::go_on;
+  } else {
+    stopped_ = second_ ? watch_.look(value, second) : watch_.look(value);
+  }
   if (stopped_ == PeakWatch::go_on) return;
   if (comm->me == 0) {
     const char *form = "Fix stop/peak (id %s) ends the run at step " BIGINT_FORMAT ": %s\n";

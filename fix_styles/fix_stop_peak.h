@@ -46,7 +46,7 @@ class FixStopPeak : public Fix {
   static std::string reason_of_end(class LAMMPS *lmp);
 
  private:
-  std::unique_ptr<FixValueSource> value_, second_;
+  std::unique_ptr<FixValueSource> value_, second_, excuse_;
   bondlab::PeakWatch watch_;
   int stopped_;  // PeakWatch::Verdict of the run this fix ended, for good
   bool ended_this_run_;

@@ -68,7 +68,13 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"platen cylinder x 0 -1 0 0.1 outside modulus 1e9", "must be z in 2D", 2},
         Wrong{"platen plane 0 -1 0 0 1 1 modulus 1e9", "no z component in 2D", 2},
         Wrong{"platen plane 0 -1 0 0 1 0 modulus 1e9 velocity 0 0 1", "can't move along z in 2D",
-              2}));
+              2},
+        Wrong{"platen plane 0 -1 0 0 1 0 modulus 1e9 follow loading 0 1 0", "there is no fix drive"},
+        Wrong{"platen plane 0 -1 0 0 1 0 modulus 1e9 follow l 0 1 0 velocity 0 1 0", "given twice"},
+        Wrong{"platen plane 0 -1 0 0 1 0 modulus 1e9 free 0", "is '0', it must be a number > 0"},
+        Wrong{"platen plane 0 -1 0 0 1 0 modulus 1e9 free 1 y velocity 0 1 0 ramp 1", "no ramp"},
+        Wrong{"platen plane 0 -1 0 0 1 0 modulus 1e9 frame 1e6", "frame needs `mass M`"},
+        Wrong{"platen plane 0 -1 0 0 1 0 modulus 1e9 frame 1e6 mass 1", "frame needs velocity or"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Others, WrongArguments,
@@ -106,6 +112,15 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"stop/peak 10 v_one drop 0.2 min 0 max_abs v_one -1",
               "is '-1', it must be a number >= 0"},
         Wrong{"stop/peak 10 v_one drop 0.2 min 0 max v_one 1", "unknown keyword 'max'"},
+        Wrong{"stop/peak 10 v_one drop 0.2 min 0 unless v_two", "there is no such variable"},
+        Wrong{"grip glue", "unknown keyword 'glue', allowed are velocity"},
+        Wrong{"membrane y -1", "the pressure (Pa) is '-1'"},
+        Wrong{"drive ramp 1", "needs `speed V`"},
+        Wrong{"drive speed 1 at_load 3 end", "need `load VALUE`"},
+        Wrong{"drive speed 1 at 3 stop", "is 'stop', allowed are speed|hold|keep|unload|end"},
+        Wrong{"drive speed 1 at 3 hold -1", "is '-1', it must be a number >= 0"},
+        Wrong{"drive speed 1 load v_one cycles 60 every 1 to 0.1", "has 60 events, at most 52"},
+        Wrong{"drive speed 1 load v_one cycles 1.5 every 1 to 0.1", "must be an integer"},
         Wrong{"bond/log ten b.tsv", "is 'ten', it must be an integer >= 1"},
         Wrong{"bond/log 10 b.tsv", "needs a bond style of bonded particles"},
         Wrong{"bond/log 10 b.tsv more", "unknown keyword 'more'"}));
