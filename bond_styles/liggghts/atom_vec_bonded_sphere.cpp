@@ -10,6 +10,7 @@
 #include <string>
 
 #include "atom.h"
+#include "bond_bpm.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -23,12 +24,14 @@
 using namespace LAMMPS_NS;
 
 namespace {
+bool is_intact(int information) { return !(information & BondBPM::BROKEN); }
 constexpr int kGrowBy = 16384;
 constexpr int kContactColumns = 3;  // shear force
 }  // namespace
 
 AtomVecBondedSphere::AtomVecBondedSphere(LAMMPS *lmp)
-    : AtomVec(lmp), bonds(0), contacts(kContactColumns), law_columns(0) {
+    : AtomVec(lmp), bonds(0), contacts(kContactColumns), law_columns(0),
+      listed_for_output_(false) {
   molecular = 1;  // the engine calls the bond style only then
   bonds_allow = 1;
   mass_type = 0;
@@ -104,6 +107,7 @@ void AtomVecBondedSphere::init() {
   for (int i = 0; i < modify->nfix; i++)
     if (modify->fix[i]->rad_mass_vary_flag)
       error->all(FLERR, "atom_style bonded/sphere: a fix that changes radii or masses can't be used");
+  refuse_listed_bonds();
   // index_tables() must run after each rebuild of the ghost shell: a small fix hears of it
   if (modify->find_fix("bonded_sphere_index") < 0) {
     const char *args[] = {"bonded_sphere_index", "all", "bonded/index"};
@@ -124,6 +128,47 @@ const bondlab::ParticleRecords &AtomVecBondedSphere::fill_records() {
   else
     records_.fill_space(n, x, v, omega, radius);
   return records_;
+}
+
+void AtomVecBondedSphere::list_bonds() {
+  int longest = 1, all = 1;
+  for (int i = 0; i < atom->nlocal; i++) longest = std::max(longest, bonds.rows_of(slot[i]));
+  MPI_Allreduce(&longest, &all, 1, MPI_INT, MPI_MAX, world);
+  if (all > atom->bond_per_atom) {
+    atom->bond_per_atom = all;
+    memory->grow(atom->bond_type, nmax, all, "atom:bond_type");
+    memory->grow(atom->bond_atom, nmax, all, "atom:bond_atom");
+  }
+  bigint mine = 0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    atom->num_bond[i] = 0;
+    for (int k = 0; k < bonds.rows_of(slot[i]); k++) {
+      const int row = bonds.row_of(slot[i], k), m = atom->num_bond[i];
+      if (!is_intact(bonds.info[row])) continue;
+      atom->bond_type[i][m] = bonds.info[row] & BondBPM::TYPE_MASK;
+      atom->bond_atom[i][m] = bonds.lo[row] == tag[i] ? bonds.hi[row] : bonds.lo[row];
+      atom->num_bond[i]++;
+      mine += bonds.lo[row] == tag[i];
+    }
+  }
+  MPI_Allreduce(&mine, &atom->nbonds, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  listed_for_output_ = true;
+}
+
+void AtomVecBondedSphere::forget_listed_bonds() {
+  for (int i = 0; i < atom->nlocal; i++) atom->num_bond[i] = 0;
+  atom->nbonds = 0;
+  listed_for_output_ = false;
+}
+
+// Bonds of a data file that nobody installed would be lost without a word.
+void AtomVecBondedSphere::refuse_listed_bonds() {
+  if (listed_for_output_) return;
+  int any = 0, all = 0;
+  for (int i = 0; i < atom->nlocal; i++) any = any || atom->num_bond[i] > 0;
+  MPI_Allreduce(&any, &all, 1, MPI_INT, MPI_MAX, world);
+  if (all)
+    error->all(FLERR, "atom_style bonded/sphere: the data file has a `Bonds` section, and nothing installed these bonds: use `bond_install GROUP data`");
 }
 
 double AtomVecBondedSphere::mass_of(double r, double rho) const {
@@ -160,9 +205,13 @@ void AtomVecBondedSphere::grow(int n) {
   memory->grow(saved_force, nmax, 6, "atom:saved_force");
   memory->grow(slot, nmax, "atom:slot");
 
-  // the engine's own lists of bonds, kept empty
+  // the engine's own lists of bonds, empty but between read_data and bond_install, or in write_data
   const int old = atom->num_bond ? atom->nlocal : 0;
   memory->grow(atom->num_bond, nmax, "atom:num_bond");
+  if (atom->bond_per_atom > 0) {
+    memory->grow(atom->bond_type, nmax, atom->bond_per_atom, "atom:bond_type");
+    memory->grow(atom->bond_atom, nmax, atom->bond_per_atom, "atom:bond_atom");
+  }
   memory->grow(atom->nspecial, nmax, 3, "atom:nspecial");
   memory->grow(atom->special, nmax, atom->maxspecial, "atom:special");
   for (int i = old; i < nmax; i++) {

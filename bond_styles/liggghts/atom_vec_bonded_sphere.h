@@ -74,6 +74,11 @@ class AtomVecBondedSphere : public AtomVec {
   const bondlab::ParticleRecords &fill_records();
   const bondlab::ParticleRecords &records() const { return records_; }
 
+  // For write_data: copies the bonds into the engine's lists, from which it writes the `Bonds`
+  // section, and empties them.
+  void list_bonds();
+  void forget_listed_bonds();
+
   double mass_of(double radius, double density) const;
   void set_reference_positions();
 
@@ -117,6 +122,8 @@ class AtomVecBondedSphere : public AtomVec {
   double *radius, *density, *rmass;
   double **omega, **torque;
   int *slot;  // [nmax] names a particle's rows in both tables
+  bool listed_for_output_;
+  void refuse_listed_bonds();
   bool stale;
   bondlab::ParticleRecords records_;
   int next_slot() const;
