@@ -20,8 +20,6 @@ class CommandTimestepBonded : protected Pointers {
  public:
   explicit CommandTimestepBonded(class LAMMPS *lmp) : Pointers(lmp) {}
   void command(int, char **);
-  // Upper bound of the square of the highest angular frequency, 1/s2, over all ranks.
-  static double frequency_bound(class LAMMPS *lmp, double &damping_time);
 };
 
 }  // namespace LAMMPS_NS
