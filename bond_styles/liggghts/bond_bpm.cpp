@@ -58,6 +58,7 @@ void BondBPM::walk(bool advance) {
   for (int first = 0; first < n; first += kBlock) {
     const int kind = block_type_[first / kBlock];
     if (kind == NONE) continue;
+    if (first + kBlock < n) t.prefetch(first + kBlock);
     bondlab::gather(t, first, dt, records, kinematics);
     view(first, kinematics.ri, kinematics.rj, block);
     block.dt = dt;
