@@ -45,6 +45,7 @@ BondBPM::BondBPM(LAMMPS *lmp, const char *name, int law_columns, int constants, 
       law_columns_(law_columns), constants_(constants), orientations_(orientations),
       any_options_(false), any_contact_off_(false), fallback_type_(0), varying_(0),
       place_(constants, -1), seen_generation_(-1), own_columns_(VARYING) {
+  writedata = 0;  // coefficients are the deck's, not the data file's
   style_->ask_for_columns(LAW, law_columns, false);
   if (orientations) style_->send_orientation = 1;
   AtomVecBondedSphere *style = style_;
