@@ -68,7 +68,12 @@ struct alignas(64) Orientations2 {
 };
 
 // What a law says of a bond after a step.
-enum class BondFate : unsigned char { intact = 0, broken_in_tension = 1, broken_in_shear = 2 };
+enum class BondFate : unsigned char {
+  intact = 0,
+  broken_in_tension = 1,
+  broken_in_shear = 2,
+  broken_in_crushing = 3
+};
 
 }  // namespace bondlab::laws
 
