@@ -19,6 +19,8 @@
 // On a monotonic path the carried stress falls linearly with the stretch, and the area under the
 // curve is the fracture energy G_f = 1/2 sigma_c^2 s_f / k with k the stiffness per area (Pa/m), so
 //     s_f = 2 G_f k / sigma_c^2.     s_f <= 1: brittle, the bond breaks at s = 1.
+// (k that of tension where the tension modulus differs.) The dissipation of a step is integrated exactly
+// for a load that grows in proportion, so G_f comes out to rounding in any number of steps.
 //
 // Damping. A dashpot in parallel to each of the bond's springs, proportional to its stiffness:
 // F = k tau_v du/dt with tau_v = 2 zeta / omega_0, omega_0 = sqrt(k_n A / m), m = m_i m_j/(m_i + m_j)
@@ -50,6 +52,17 @@ inline double integrity(double worst, double failure) {
   const double falling = (failure / worst - 1.0) / (failure - 1.0);  // failure = 1: not used
   const double softening = falling > 0.0 ? falling : 0.0;
   return worst < 1.0 ? 1.0 : (failure > 1.0 ? softening : 0.0);
+}
+
+// Energy that softening takes in a step, J: s_max goes from `before` to `worst`, at which the effective
+// forces store `stored`. In proportional loading the stored energy at s is stored (s/worst)^2, and
+// -integral of it dw, w as above, is (w_before - w_worst) stored at the geometric mean of the two s.
+// A brittle break is not counted.
+inline double softening_loss(double before, double worst, double failure, double stored) {
+  const double from = before > 1.0 ? before : 1.0, to = worst < failure ? worst : failure;
+  const double share = integrity(from, failure) - integrity(to, failure);
+  const double loss = share * stored * (from / worst) * (to / worst);
+  return failure > 1.0 && to > from ? loss : 0.0;
 }
 
 // Elastic energy of effective forces, J, as far as damage takes it: tensile normal force, shear, bend

@@ -7,7 +7,8 @@
 // liggghts/pair_gather.h: change over the step = dt times half-step velocity. A test may integrate
 // (step), or prescribe positions and half-step velocities itself and ask for loads (load).
 // In 2D (`flat`) only x, y and the rotation about z take part.
-// The bonds' law is the parallel bond, or whatever `Bench::law` says.
+// The bonds' law is the parallel bond, or whatever `Bench::law` says. `Bench::options` takes the kernels
+// with the options common to all laws (bond_options.h), `Bench::contacts = false` those without contact.
 // Units: SI. Failure: none, it is for tests only. Limits: no neighbour search, bonds never change
 // places; a handful of grains (loads are summed pair by pair in the order of their making).
 #ifndef BONDLAB_LAWS_CHAIN_TESTBENCH_H
@@ -18,6 +19,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "parallel.h"
@@ -73,13 +75,46 @@ struct PairRow {
   double alive = 0;
   Vec3 fs{0, 0, 0}, mb{0, 0, 0}, cs{0, 0, 0};  // 2D: .x
   double mt = 0, sigma = 0, tau = 0;
+  double tension = 1, failure = 1, viscous = 0;  // options: E_t/E_c, s_f, tau_v in s
+  double worst = 0, lost = 0;                    // their state: s_max, energy in J
   BondFate fate = BondFate::intact;
   std::array<double, 32> own{};  // what another law keeps of a bond, see BondLaw
   // loads of the last call
   Vec3 force{0, 0, 0}, moment_i{0, 0, 0}, moment_j{0, 0, 0};
 };
 
-// A law other than the parallel bond. Lane b of a block is the bond *rows[b].
+// The options of one block of bonds, read from their rows and written back.
+struct OptionColumns {
+  alignas(64) std::array<double, kBlock> tension, failure, viscous, worst, lost;
+  OptionColumns(PairRow *const *rows, double dt) {
+    for (int b = 0; b < kBlock; ++b) {
+      const PairRow &p = *rows[b];
+      tension[b] = p.tension, failure[b] = p.failure, worst[b] = p.worst, lost[b] = p.lost;
+      viscous[b] = dt > 0.0 ? p.viscous / dt : 0.0;
+    }
+  }
+  OptionArrays arrays() {
+    return {tension.data(), failure.data(), viscous.data(), worst.data(), lost.data()};
+  }
+  void put_back(PairRow *const *rows) const {
+    for (int b = 0; b < kBlock; ++b) rows[b]->worst = worst[b], rows[b]->lost = lost[b];
+  }
+};
+
+// Calls f with the three switches of a law's kernel as compile-time constants.
+template <class F>
+void switched(bool advance, bool options, bool contacts, F f) {
+  const auto third = [&](auto a, auto o) {
+    contacts ? f(a, o, std::true_type()) : f(a, o, std::false_type());
+  };
+  const auto second = [&](auto a) {
+    options ? third(a, std::true_type()) : third(a, std::false_type());
+  };
+  advance ? second(std::true_type()) : second(std::false_type());
+}
+
+// A law other than the parallel bond. Lane b of a block is the bond *rows[b]; unused lanes repeat the
+// last one. Of the bench a law may want `dt`, `options` (then use OptionColumns) and `contacts`.
 class Bench;
 struct BondLaw {
   virtual ~BondLaw() = default;
@@ -99,6 +134,8 @@ class Bench {
   std::vector<Grain> grains;
   std::vector<PairRow> pairs;
   std::shared_ptr<const BondLaw> law;  // none: parallel.h
+  bool options = false, contacts = true;  // which of the law's kernels
+  double dt = 0.0;                        // of the step whose loads are computed, s
   double viscous = 0.0;  // 1/s, damping proportional to mass
   bool transverse_only = false;  // grains move along y and turn about z only
 
@@ -152,14 +189,15 @@ class Bench {
   }
 
   // Loads of all pairs at the present positions; grain velocities are those of the half step.
-  void load(double dt, bool advance = true) {
+  void load(double step, bool advance = true) {
+    dt = step;
     for (Grain &g : grains) g.f = g.pull, g.t = g.turn;
     for (const bool bonded : {false, true}) {
       order_.clear();
       for (int k = 0; k < static_cast<int>(pairs.size()); ++k)
         if (pairs[k].bonded == bonded) order_.push_back(k);
       for (std::size_t first = 0; first < order_.size(); first += kBlock)
-        flat_ ? block_2d(first, bonded, dt, advance) : block_3d(first, bonded, dt, advance);
+        flat_ ? block_2d(first, bonded, advance) : block_3d(first, bonded, advance);
     }
     for (const PairRow &p : pairs) {
       Grain &a = grains[p.i], &b = grains[p.j];
@@ -171,33 +209,33 @@ class Bench {
   }
 
   // Velocity Verlet. Forces must be known: call load(0, false) once before the first step.
-  void step(double dt) {
-    kick(0.5 * dt);
-    drift(dt);
-    load(dt);
-    kick(0.5 * dt);
+  void step(double time) {
+    kick(0.5 * time);
+    drift(time);
+    load(time);
+    kick(0.5 * time);
   }
 
-  void drift(double dt) {
+  void drift(double time) {
     for (Grain &g : grains) {
-      g.x = g.x + dt * g.v;
-      g.turned = g.turned + dt * g.w;
-      if (law) g.q = turned_by(g.q, dt * g.w);
+      g.x = g.x + time * g.v;
+      g.turned = g.turned + time * g.w;
+      if (law) g.q = turned_by(g.q, time * g.w);
     }
   }
 
   // Steps with positions and spins given: grain k moves to x(k) and turns by spin(k) (rad).
-  void prescribe(double dt, const std::function<Vec3(int)> &x, const std::function<Vec3(int)> &spin,
+  void prescribe(double time, const std::function<Vec3(int)> &x, const std::function<Vec3(int)> &spin,
                  bool advance = true) {
     for (int k = 0; k < static_cast<int>(grains.size()); ++k) {
       const Vec3 next = x(k);
-      grains[k].v = (1.0 / dt) * (next - grains[k].x);
+      grains[k].v = (1.0 / time) * (next - grains[k].x);
       grains[k].x = next;
       const Vec3 turn = spin(k);
-      grains[k].w = (1.0 / dt) * turn;
+      grains[k].w = (1.0 / time) * turn;
       if (law) grains[k].q = turned_by(grains[k].q, turn);
     }
-    load(dt, advance);
+    load(time, advance);
   }
 
   double kinetic_energy() const {
@@ -206,9 +244,13 @@ class Bench {
     return sum;
   }
 
-  double normal_force(const PairRow &p) const {  // of the bond, tension positive
-    return p.alive * p.stiffness * section(p).area * (distance(p.i, p.j) - p.rest);
+  double normal_force(const PairRow &p) const {  // of the bond, tension positive, without damage
+    const double stretch = distance(p.i, p.j) - p.rest;
+    const double side = options && stretch > 0.0 ? p.tension : 1.0;
+    return p.alive * side * p.stiffness * section(p).area * stretch;
   }
+
+  double carried(const PairRow &p) const { return options ? integrity(p.worst, p.failure) : 1.0; }
 
   double potential_energy() const {
     double sum = 0.0;
@@ -218,9 +260,22 @@ class Bench {
       if (p.bonded && law)
         sum += law->energy(*this, p);
       else if (p.alive != 0.0)
-        sum += parallel_energy(normal_force(p), length(p.fs), length(p.mb), p.mt, p.stiffness,
-                               p.stiffness / p.ratio, section(p));
+        sum += bond_energy(p);
     }
+    return sum;
+  }
+
+  // Elastic energy of an intact parallel bond: the carried share, but the whole of compression.
+  double bond_energy(const PairRow &p) const {
+    const double fn = normal_force(p), share = carried(p), kn = p.stiffness, ks = kn / p.ratio;
+    const double open = fn > 0.0 ? share / (options ? p.tension : 1.0) : 1.0;
+    return open * parallel_energy(fn, 0, 0, 0, kn, ks, section(p)) +
+           share * parallel_energy(0, length(p.fs), length(p.mb), p.mt, kn, ks, section(p));
+  }
+
+  double lost_energy() const {  // by the options' damping and softening
+    double sum = 0.0;
+    for (const PairRow &p : pairs) sum += p.lost;
     return sum;
   }
 
@@ -287,7 +342,7 @@ class Bench {
     }
   }
 
-  void block_3d(std::size_t first, bool bonded, double dt, bool advance) {
+  void block_3d(std::size_t first, bool bonded, bool advance) {
     Columns c;
     Kinematics3 k;
     PairLoads3 out;
@@ -303,11 +358,12 @@ class Bench {
       k.ri[b] = i.radius, k.rj[b] = j.radius;
     }
     const ContactParameters contact{c.reference.data(), c.kn.data(), c.ks.data(), c.mu.data()};
+    PairRow *rows[kBlock];
+    for (int b = 0; b < kBlock; ++b) rows[b] = &row(first + b);
+    OptionColumns option(rows, dt);
     if (bonded && law) {
       Orientations3 o;
-      PairRow *rows[kBlock];
       for (int b = 0; b < kBlock; ++b) {
-        rows[b] = &row(first + b);
         const auto &i = grains[rows[b]->i].q, &j = grains[rows[b]->j].q;
         o.iw[b] = i[0], o.ix[b] = i[1], o.iy[b] = i[2], o.iz[b] = i[3];
         o.jw[b] = j[0], o.jx[b] = j[1], o.jy[b] = j[2], o.jz[b] = j[3];
@@ -320,10 +376,11 @@ class Bench {
                               c.alive.data(),   c.fsx.data(),    c.fsy.data(),       c.fsz.data(),
                               c.mbx.data(),     c.mby.data(),    c.mbz.data(),       c.mt.data(),
                               c.sigma.data(),   c.tau.data(),    c.fate.data()};
-      if (advance)
-        parallel_block_3d<true>(k, a, contact, c.csx.data(), c.csy.data(), c.csz.data(), out);
-      else
-        parallel_block_3d<false>(k, a, contact, c.csx.data(), c.csy.data(), c.csz.data(), out);
+      switched(advance, options, contacts, [&](auto adv, auto opt, auto con) {
+        parallel_block_3d<adv.value, opt.value, con.value>(
+            k, a, contact, c.csx.data(), c.csy.data(), c.csz.data(), out, option.arrays());
+      });
+      option.put_back(rows);
     } else {
       contact_block_3d(k, contact, advance, c.csx.data(), c.csy.data(), c.csz.data(), out);
     }
@@ -336,7 +393,7 @@ class Bench {
     }
   }
 
-  void block_2d(std::size_t first, bool bonded, double dt, bool advance) {
+  void block_2d(std::size_t first, bool bonded, bool advance) {
     Columns c;
     Kinematics2 k;
     PairLoads2 out;
@@ -351,11 +408,12 @@ class Bench {
       k.ri[b] = i.radius, k.rj[b] = j.radius;
     }
     const ContactParameters contact{c.reference.data(), c.kn.data(), c.ks.data(), c.mu.data()};
+    PairRow *rows[kBlock];
+    for (int b = 0; b < kBlock; ++b) rows[b] = &row(first + b);
+    OptionColumns option(rows, dt);
     if (bonded && law) {
       Orientations2 o;
-      PairRow *rows[kBlock];
       for (int b = 0; b < kBlock; ++b) {
-        rows[b] = &row(first + b);
         const auto &i = grains[rows[b]->i].q, &j = grains[rows[b]->j].q;
         o.iw[b] = i[0], o.iz[b] = i[3], o.jw[b] = j[0], o.jz[b] = j[3];
       }
@@ -366,10 +424,11 @@ class Bench {
                               c.beta.data(), c.tan_phi.data(), c.sigma_c.data(),   c.tau_c.data(),
                               thickness_,    c.alive.data(),   c.fsx.data(),       c.mbx.data(),
                               c.sigma.data(), c.tau.data(),    c.fate.data()};
-      if (advance)
-        parallel_block_2d<true>(k, a, contact, c.csx.data(), out);
-      else
-        parallel_block_2d<false>(k, a, contact, c.csx.data(), out);
+      switched(advance, options, contacts, [&](auto adv, auto opt, auto con) {
+        parallel_block_2d<adv.value, opt.value, con.value>(k, a, contact, c.csx.data(), out,
+                                                           option.arrays());
+      });
+      option.put_back(rows);
     } else {
       contact_block_2d(k, contact, advance, c.csx.data(), out);
     }

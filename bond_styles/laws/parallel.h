@@ -147,8 +147,9 @@ void parallel_block_3d(const Kinematics3& k, const ParallelArrays3& a, const Con
       worst = worst_o[b] > factor || !advance ? worst_o[b] : factor;
       share = integrity(worst, failure_o[b]);
       const bool broken = share <= 0.0;
-      tension = broken & (opened >= slid);
-      shear = broken & (opened < slid);
+      // brittle: tension is looked at first; softening: the larger of the two rules
+      tension = broken & ((opened >= slid) | ((failure_o[b] <= 1.0) & (opened >= 1.0)));
+      shear = broken & !tension;
     }
     hold = advance ? ((tension | shear) ? 0.0 : alive) : alive;
     sigma_b[b] = alive * sigma;
@@ -158,7 +159,6 @@ void parallel_block_3d(const Kinematics3& k, const ParallelArrays3& a, const Con
     Vec3 fs_out = hold * fs, mb_out = hold * mb;
     double fn_out = hold * fn, mt_out = hold * mt;
     if constexpr (options) {
-      const double before = worst_o[b] > 1.0 ? integrity(worst_o[b], failure_o[b]) : 1.0;
       fs_out = share * fs_out, mb_out = share * mb_out, mt_out *= share;
       fn_out *= fn > 0.0 ? share : 1.0;
       const double stored = option_energy(fn > 0.0 ? fn : 0.0, dot(fs, fs), dot(mb, mb), mt * mt,
@@ -175,9 +175,9 @@ void parallel_block_3d(const Kinematics3& k, const ParallelArrays3& a, const Con
       mb_out = mb_out + vb * p.bend;
       mt_out += vt * p.twist;
       if constexpr (advance) {
-        worst_o[b] = worst;
-        lost_o[b] += alive * (hold * (before - share) * stored) + vn * stretch * stretch +
+        lost_o[b] += alive * softening_loss(worst_o[b], worst, failure_o[b], stored) + vn * stretch * stretch +
                      vs * dot(p.shear, p.shear) + vb * dot(p.bend, p.bend) + vt * p.twist * p.twist;
+        worst_o[b] = worst;
       }
     }
 
@@ -247,8 +247,9 @@ void parallel_block_2d(const Kinematics2& k, const ParallelArrays2& a, const Con
       worst = worst_o[b] > factor || !advance ? worst_o[b] : factor;
       share = integrity(worst, failure_o[b]);
       const bool broken = share <= 0.0;
-      tension = broken & (opened >= slid);
-      shear = broken & (opened < slid);
+      // brittle: tension is looked at first; softening: the larger of the two rules
+      tension = broken & ((opened >= slid) | ((failure_o[b] <= 1.0) & (opened >= 1.0)));
+      shear = broken & !tension;
     }
     hold = advance ? ((tension | shear) ? 0.0 : alive) : alive;
     sigma_b[b] = alive * sigma;
@@ -257,7 +258,6 @@ void parallel_block_2d(const Kinematics2& k, const ParallelArrays2& a, const Con
 
     double fn_out = hold * fn, fs_out = hold * fs, mb_out = hold * mb;
     if constexpr (options) {
-      const double before = worst_o[b] > 1.0 ? integrity(worst_o[b], failure_o[b]) : 1.0;
       fs_out *= share, mb_out *= share;
       fn_out *= fn > 0.0 ? share : 1.0;
       const double stored = option_energy(fn > 0.0 ? fn : 0.0, fs * fs, mb * mb, 0.0,
@@ -269,9 +269,9 @@ void parallel_block_2d(const Kinematics2& k, const ParallelArrays2& a, const Con
       const double stretch = stretched(p, k.ux[b], k.uy[b], k.dx[b], k.dy[b]);
       fn_out += vn * stretch, fs_out += vs * p.shear, mb_out += vb * k.q[b];
       if constexpr (advance) {
-        worst_o[b] = worst;
-        lost_o[b] += alive * (hold * (before - share) * stored) + vn * stretch * stretch +
+        lost_o[b] += alive * softening_loss(worst_o[b], worst, failure_o[b], stored) + vn * stretch * stretch +
                      vs * p.shear * p.shear + vb * k.q[b] * k.q[b];
+        worst_o[b] = worst;
       }
     }
 
