@@ -33,6 +33,7 @@ struct LawCase {
   std::string name;
   std::function<PairRow &(Bench &, int i, int j, const BondCase &)> bond;
   std::function<BondStiffness(const Bench &, const PairRow &)> stiffness;
+  std::function<void(PairRow &)> unbreakable;  // takes the strength of a bond away
 };
 
 inline LawCase parallel_case() {
@@ -52,6 +53,7 @@ inline LawCase parallel_case() {
     const double kn = row.stiffness, ks = kn / row.ratio;
     return BondStiffness{kn * s.area, ks * s.area, kn * s.bend, ks * s.twist};
   };
+  law.unbreakable = [](PairRow &row) { row.sigma_c = row.tau_c = 1e300; };
   return law;
 }
 
