@@ -38,16 +38,13 @@ std::string in_words(double seconds) {
 
 std::string size_of(const SpecimenEntry &s) {
   const auto mm = [](double length) { return format_quantity(length, "mm"); };
-  switch (s.shape) {
-    case SpecimenShape::rectangle:
-      return fmt::format("rectangle {} x {}, thickness {}", mm(s.width), mm(s.height),
-                         mm(s.thickness));
-    case SpecimenShape::disc:
-      return fmt::format("disc of {}, thickness {}", mm(s.diameter), mm(s.thickness));
-    case SpecimenShape::cylinder:
-      return fmt::format("cylinder of {}, height {}", mm(s.diameter), mm(s.height));
-  }
-  return "";
+  std::string text = shape_name(s.shape);
+  for (const NamedDimension &dimension : dimensions_of(s.shape))
+    text += fmt::format(", {} {}", dimension.name, mm(s.size.*dimension.value));
+  if (s.size.notch_depth > 0)
+    text += fmt::format(", notch {} deep, {} wide", mm(s.size.notch_depth), mm(s.size.notch_width));
+  if (is_flat(s.shape)) text += ", thickness " + mm(s.thickness);
+  return text;
 }
 
 // Every test of the study at the parameters' start values.

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Job: `bondlab specimen rectangle|disc|cylinder` makes a packing and prints its statistics;
-//   `bondlab specimen check` looks whether a specimen file can be used.
+// Job: `bondlab specimen rectangle|disc|cylinder|prism|sphere` makes a packing and prints its
+//   statistics; `bondlab specimen check` looks whether a specimen file can be used.
 // Units: lengths with a unit ("50 mm") or plain in m; statistics are printed in mm.
 // Failure: UserError for bad sizes, files that can't be written or read, packings that can't be
 //   tested.
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 
 #include "app/commands.h"
@@ -26,11 +28,20 @@ namespace {
 // The options as typed; quantities are parsed when the command runs, so that their errors are
 // UserErrors like all others.
 struct Options {
-  std::string width, height, diameter, r_min, density = "2600 kg/m3", from, out;
+  std::map<std::string, std::string> sizes_of_body;  // by the names of container.h
+  std::string r_min, density = "2600 kg/m3", from, out;
   double ratio = 1.66, overlap = SpecimenRequest().overlap;
   std::string sizes = "uniform";
   std::uint64_t seed = 1;
 };
+
+constexpr NamedDimension notch_dimensions[] = {{"notch_depth", &Dimensions::notch_depth},
+                                               {"notch_width", &Dimensions::notch_width}};
+
+std::string option_name(std::string dimension) {
+  std::replace(dimension.begin(), dimension.end(), '_', '-');
+  return "--" + dimension;
+}
 
 double quantity(const char *option, const std::string &text, const char *unit) {
   if (text.empty()) return 0;
@@ -45,9 +56,15 @@ double quantity(const char *option, const std::string &text, const char *unit) {
 SpecimenRequest request_from(ContainerShape shape, const Options &options) {
   SpecimenRequest request;
   request.shape = shape;
-  request.width = quantity("--width", options.width, "m");
-  request.height = quantity("--height", options.height, "m");
-  request.diameter = quantity("--diameter", options.diameter, "m");
+  Dimensions size;
+  const auto take = [&](const NamedDimension &dimension) {
+    const auto given = options.sizes_of_body.find(dimension.name);
+    if (given != options.sizes_of_body.end())
+      size.*dimension.value = quantity(option_name(dimension.name).c_str(), given->second, "m");
+  };
+  for (const NamedDimension &dimension : dimensions_of(shape)) take(dimension);
+  for (const NamedDimension &dimension : notch_dimensions) take(dimension);
+  request.set_dimensions(size);
   request.r_min = quantity("--r-min", options.r_min, "m");
   request.density = quantity("--density", options.density, "kg/m3");
   request.r_ratio = options.ratio;
@@ -79,7 +96,8 @@ void print_statistics(const Specimen &specimen) {
                                s.fabric_ratio, s.stress_ratio));
   line("locked-in stress", fmt::format("{:.2g} of the contact modulus E_c", s.stress_over_modulus));
   line("floaters", fmt::format("{} left, {} grown until held", s.floaters, s.floaters_grown));
-  if (specimen.request.shape != ContainerShape::disc)
+  if (specimen.request.shape != ContainerShape::disc &&
+      specimen.request.shape != ContainerShape::sphere)
     line("touching the ends", fmt::format("{} bottom, {} top", s.on_bottom, s.on_top));
 }
 
@@ -114,21 +132,27 @@ void make(ContainerShape shape, const Options &options) {
 }
 
 void add_shape(CLI::App &specimen, ContainerShape shape) {
-  const char *const about[] = {"discs in a rectangle of width x (across) and height y (loaded)",
+  const char *const about[] = {"discs in a rectangle of width x and height y",
                                "discs in a circle, loaded along y",
-                               "spheres in a cylinder with axis z"};
+                               "spheres in a cylinder with axis z",
+                               "spheres in a prism of width x, height y and length z",
+                               "spheres in a sphere"};
   CLI::App *command = specimen.add_subcommand(shape_name(shape), about[static_cast<int>(shape)]);
   const auto options = std::make_shared<Options>();
-  if (shape == ContainerShape::rectangle)
-    command->add_option("--width", options->width, "width, such as \"50 mm\" (plain numbers: m)")
-        ->required();
-  else
+  for (const NamedDimension &dimension : dimensions_of(shape))
     command
-        ->add_option("--diameter", options->diameter,
-                     "diameter, such as \"50 mm\" (plain numbers: m)")
+        ->add_option(option_name(dimension.name), options->sizes_of_body[dimension.name],
+                     std::string(dimension.name) + ", such as \"50 mm\" (plain numbers: m)")
         ->required();
-  if (shape != ContainerShape::disc)
-    command->add_option("--height", options->height, "height")->required();
+  if (can_have_notch(shape)) {
+    CLI::Option *depth =
+        command->add_option("--notch-depth", options->sizes_of_body["notch_depth"],
+                            "depth of a notch in the middle of the long side, open to -y");
+    CLI::Option *width =
+        command->add_option("--notch-width", options->sizes_of_body["notch_width"], "its width");
+    depth->needs(width);
+    width->needs(depth);
+  }
   command->add_option("--r-min", options->r_min, "smallest particle radius");
   command->add_option("--ratio", options->ratio, "largest over smallest radius")
       ->capture_default_str();
@@ -159,9 +183,8 @@ void add_specimen(CLI::App &app) {
   CLI::App *specimen =
       app.add_subcommand("specimen", "make a packing of discs or spheres, or check one");
   specimen->require_subcommand(1);
-  for (const ContainerShape shape :
-       {ContainerShape::rectangle, ContainerShape::disc, ContainerShape::cylinder})
-    add_shape(*specimen, shape);
+  for (const std::string &name : container_shape_names())
+    add_shape(*specimen, shape_from_name(name));
 
   CLI::App *check = specimen->add_subcommand("check", "look whether a specimen file can be tested");
   const auto file = std::make_shared<std::string>(), gap = std::make_shared<std::string>();

@@ -26,16 +26,9 @@ double mean_power(double r_min, double ratio,
 }  // namespace
 
 double expected_particles(const SpecimenEntry &s) {
-  switch (s.shape) {
-    case SpecimenShape::rectangle:
-      return kSolidDisc * s.width * s.height / (kPi * mean_power(s.r_min, s.r_ratio, 2));
-    case SpecimenShape::disc:
-      return kSolidDisc * s.diameter * s.diameter / 4 / mean_power(s.r_min, s.r_ratio, 2);
-    case SpecimenShape::cylinder:
-      return kSolidSphere * s.diameter * s.diameter / 4 * s.height /
-             (4.0 / 3 * mean_power(s.r_min, s.r_ratio, 3));
-  }
-  return 0;
+  const double space = Container(s.shape, s.size).measure();
+  if (is_flat(s.shape)) return kSolidDisc * space / (kPi * mean_power(s.r_min, s.r_ratio, 2));
+  return kSolidSphere * space / (4.0 / 3 * kPi * mean_power(s.r_min, s.r_ratio, 3));
 }
 
 std::optional<RunCost> run_cost(const RunPlan &plan, const RunStore *store) {
@@ -49,9 +42,11 @@ std::optional<RunCost> run_cost(const RunPlan &plan, const RunStore *store) {
   const double density = value("density") > 0 ? value("density") : plan.specimen.density;
   if (speed <= 0 || modulus <= 0) return std::nullopt;
   const SpecimenEntry &s = plan.specimen;
-  const double length = s.shape == SpecimenShape::rectangle || s.shape == SpecimenShape::cylinder
-                            ? s.height
-                            : s.diameter;
+  const bool upright =
+      s.shape == SpecimenShape::rectangle || s.shape == SpecimenShape::cylinder;
+  const double length = upright                             ? s.size.height
+                        : s.shape == SpecimenShape::prism ? s.size.length
+                                                            : s.size.diameter;
   // A disc of mass pi r^2 t rho among six contacts of stiffness 2 t E, grain and bond each: omega^2
   // = 2 * 6 * 4 t E / m, and a step of 2 / omega. The sphere's figures differ by less than the rest
   // of the estimate.

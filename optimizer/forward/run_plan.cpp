@@ -53,22 +53,20 @@ std::optional<double> default_number(const std::string &text, const std::string 
   return to_si(value, unit.empty() ? "1" : unit);
 }
 
-// The specimen's dimensions under the names decks use. A cylinder loaded across its axis is a disc
-// of its height.
-std::map<std::string, double> dimensions_of(const SpecimenEntry &specimen) {
-  switch (specimen.shape) {
-    case SpecimenShape::rectangle:
-      return {{"width", specimen.width},
-              {"height", specimen.height},
-              {"thickness", specimen.thickness}};
-    case SpecimenShape::disc:
-      return {{"diameter", specimen.diameter}, {"thickness", specimen.thickness}};
-    case SpecimenShape::cylinder:
-      return {{"diameter", specimen.diameter},
-              {"height", specimen.height},
-              {"thickness", specimen.height}};
+// The specimen's dimensions under the names decks use, and its thickness across the plane of a
+// test: of a cylinder loaded across its axis its height, of a prism its width.
+std::map<std::string, double> deck_dimensions(const SpecimenEntry &specimen) {
+  std::map<std::string, double> named;
+  for (const NamedDimension &dimension : dimensions_of(specimen.shape))
+    named[dimension.name] = specimen.size.*dimension.value;
+  if (can_have_notch(specimen.shape)) {
+    named["notch_depth"] = specimen.size.notch_depth;
+    named["notch_width"] = specimen.size.notch_width;
   }
-  return {};
+  if (is_flat(specimen.shape)) named["thickness"] = specimen.thickness;
+  if (specimen.shape == SpecimenShape::cylinder) named["thickness"] = specimen.size.height;
+  if (specimen.shape == SpecimenShape::prism) named["thickness"] = specimen.size.width;
+  return named;
 }
 
 }  // namespace
@@ -131,7 +129,7 @@ RunPlan plan_run(const Study &study, const ForwardRequest &request) {
     set_number(name, value);
     plan.varied.push_back(name);
   }
-  for (const auto &[name, value] : dimensions_of(plan.specimen)) {
+  for (const auto &[name, value] : deck_dimensions(plan.specimen)) {
     plan.numeric[name] = value;
     if (definition.deck_defaults.count(name)) plan.variables[name] = canonical_number(value);
   }

@@ -27,7 +27,7 @@ RunPlan plan() {
   RunPlan plan;
   plan.test = plan.virtual_test = "ucs";
   plan.variables = {{"E_c", "3e10"}, {"word", "normal"}};
-  plan.specimen.width = plan.specimen.height = 0.05;
+  plan.specimen.size.width = plan.specimen.size.height = 0.05;
   return plan;
 }
 
@@ -156,7 +156,7 @@ TEST(RunStore, MeanSecondsAreOfFinishedRunsOfTheWorkload) {
   store.finish_failed(failed, {FailureCause::timeout, "", "", "", ""}, 1000);
   EXPECT_EQ(store.mean_seconds(workload_of(plan())).value(), 15);
   RunPlan other = plan();
-  other.specimen.width *= 2;
+  other.specimen.size.width *= 2;
   EXPECT_FALSE(store.mean_seconds(workload_of(other)).has_value());
 }
 

@@ -18,7 +18,7 @@ Study small_study() {
   Study study;
   study.name = "granite", study.title = "Granite";
   SpecimenEntry specimen;
-  specimen.name = "body", specimen.width = 0.05, specimen.height = 0.1, specimen.r_min = 0.66e-3;
+  specimen.name = "body", specimen.size.width = 0.05, specimen.size.height = 0.1, specimen.r_min = 0.66e-3;
   study.specimens.push_back(specimen);
   TestEntry test;
   test.name = "ucs", test.specimen = "body";

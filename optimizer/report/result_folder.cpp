@@ -32,9 +32,22 @@ std::optional<Json> read_json(const fs::path &file) {
 
 std::string size_text(const SpecimenEntry &s) {
   const auto mm = [](double metres) { return significant(1e3 * metres) + " mm"; };
-  if (s.shape == SpecimenShape::rectangle) return mm(s.width) + " \u00d7 " + mm(s.height);
-  if (s.shape == SpecimenShape::disc) return "diameter " + mm(s.diameter);
-  return "diameter " + mm(s.diameter) + ", length " + mm(s.height);
+  const Dimensions &d = s.size;
+  const std::string notch =
+      d.notch_depth > 0 ? ", notch " + mm(d.notch_depth) + " deep, " + mm(d.notch_width) + " wide"
+                        : "";
+  switch (s.shape) {
+    case SpecimenShape::rectangle:
+      return mm(d.width) + " \u00d7 " + mm(d.height) + notch;
+    case SpecimenShape::prism:
+      return mm(d.width) + " \u00d7 " + mm(d.height) + " \u00d7 " + mm(d.length) + notch;
+    case SpecimenShape::cylinder:
+      return "diameter " + mm(d.diameter) + ", length " + mm(d.height) + notch;
+    case SpecimenShape::disc:
+    case SpecimenShape::sphere:
+      return "diameter " + mm(d.diameter);
+  }
+  return "";
 }
 
 void add_figures(ReportSpecimen &specimen, const Json &record) {
@@ -83,7 +96,7 @@ std::vector<ReportSpecimen> read_specimens(const Study &study, const fs::path &d
   std::vector<ReportSpecimen> specimens;
   for (const SpecimenEntry &s : study.specimens) {
     ReportSpecimen specimen;
-    specimen.name = s.name, specimen.shape = to_string(s.shape), specimen.size = size_text(s);
+    specimen.name = s.name, specimen.shape = shape_name(s.shape), specimen.size = size_text(s);
     specimen.r_min = s.r_min, specimen.r_max = s.r_min * s.r_ratio,
     specimen.seed = std::to_string(s.seed);
     const std::string file = specimen.shape + "-" + specimen_key(specimen_request(s, 0)) + ".json";

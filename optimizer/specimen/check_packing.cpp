@@ -86,11 +86,17 @@ void check_contacts(const PackingFile &packing, const PackingLimits &limits, Fin
   const double gap = limits.gap > 0 ? limits.gap : bond_gap * r_mean;
   const PairList bonds = find_pairs(particles, gap);
   std::vector<int> bonds_of(particles.size(), 0);
+  const Container body = packing.made_from ? packing.made_from->container()
+                                           : Container(ContainerShape::disc, Dimensions());
   for (std::size_t i = 0; i < particles.size(); ++i) {
     for (std::size_t k = bonds.start[i]; k < bonds.start[i + 1]; ++k) {
       const std::size_t j = static_cast<std::size_t>(bonds.other[k]);
       ++bonds_of[i];
       ++bonds_of[j];
+      if (body.crosses_notch(particles[i], particles[j]))
+        found.add("bonds across the notch", j,
+                  "would be bonded to particle " + std::to_string(packing.rows[i].id) +
+                      " across the notch: its gap is within the bond gap of " + shown(gap) + " m");
       const double overlap =
           -gap_between(particles[i], particles[j]) / std::min(particles[i].r, particles[j].r);
       if (overlap > limits.overlap)

@@ -3,7 +3,8 @@
 // Job: refuse a packing that can't be tested, before anything is run on it.
 // Method: what the engine would lose (outside its box), what a platen would hit first (outside
 //   the container), what would burst (large overlaps), and what bonds wouldn't hold (particles
-//   without a neighbour within the bond gap; several separate parts). Text errors (numbers,
+//   without a neighbour within the bond gap; several separate parts), and what they mustn't hold
+//   (the two sides of a notch). Text errors (numbers,
 //   duplicate ids, columns) are found by the reader.
 // Units: gap in m; other limits relative to the particle's radius.
 // Failure: UserErrors with file and line of each particle; of each kind at most ten are listed

@@ -93,6 +93,22 @@ TEST(CheckPacking, PackingInTwoParts) {
               "particle 25 belongs to a part of 12 particles that touches the rest nowhere");
 }
 
+TEST(CheckPacking, BondsAcrossTheNotch) {
+  Specimen specimen = lattice(6);
+  specimen.request.notch_depth = 2.5;
+  specimen.request.notch_width = 0.1;
+  for (Particle &p : specimen.particles)  // the sides stand 0.1 m apart, above they touch
+    if (p.y < 4) p.x += p.x < 0 ? -0.05 : 0.05;
+  PackingLimits limits;
+  limits.stick_out = 1;
+  limits.gap = 0.11;
+  const std::string text = complaint(specimen, limits);
+  expect_part(text, "would be bonded to particle 3 across the notch");  // y = 1
+  EXPECT_EQ(text.find("particle 9 across"), std::string::npos);         // y = 3 is above it
+  limits.gap = 0.09;
+  EXPECT_EQ(complaint(specimen, limits), "");
+}
+
 TEST(CheckPacking, LargeOverlap) {
   Specimen specimen = lattice(6);
   specimen.particles[14].x += 0.05;

@@ -192,8 +192,11 @@ Specimen make_specimen(const SpecimenRequest &given, const SpecimenProgressCallb
   const double unit =
       size_distribution(request.sizes, request.r_min, request.r_ratio)->moment(1);  // m
   const auto sizes = size_distribution(request.sizes, request.r_min / unit, request.r_ratio);
-  const Container box(request.shape, request.width / unit, request.height / unit,
-                      request.diameter / unit);
+  Dimensions size = request.dimensions();
+  for (double *length : {&size.width, &size.height, &size.diameter, &size.length,
+                         &size.notch_depth, &size.notch_width})
+    *length /= unit;
+  const Container box(request.shape, size);
   const int dimension = box.dimension();
   const double one = dimension == 2 ? pi * sizes->moment(2) : 4 * pi / 3 * sizes->moment(3);
 

@@ -6,6 +6,7 @@
 
 #include "base/table_file.h"
 #include "base/user_error.h"
+#include "specimen/check_packing.h"
 #include "specimen/data_file.h"
 #include "specimen/neighbours.h"
 #include "specimen/relax.h"
@@ -107,6 +108,32 @@ TEST(Genesis, SpheresInACylinder) {
   EXPECT_LT(s.fabric_ratio, 1.3);
   EXPECT_GE(s.on_bottom, 20);
   EXPECT_GE(s.on_top, 20);
+}
+
+// Every shape with and without a notch: held, whole, within its walls and out of its notch.
+TEST(Genesis, FillsEveryShapeAndKeepsOutOfItsNotch) {
+  std::vector<SpecimenRequest> requests = {notched_beam()};
+  SpecimenRequest beam = small_rectangle();
+  beam.width = 0.06, beam.height = 0.02, beam.notch_depth = 0.006, beam.notch_width = 0.0015;
+  requests.push_back(beam);
+  SpecimenRequest bar = small_cylinder();
+  bar.notch_depth = 0.002, bar.notch_width = 0.001;
+  requests.push_back(bar);
+  SpecimenRequest ball = small_cylinder();
+  ball.shape = ContainerShape::sphere;
+  requests.push_back(ball);
+  for (const SpecimenRequest &request : requests) {
+    const Specimen specimen = make_specimen(request);
+    const SpecimenStatistics &s = specimen.statistics;
+    SCOPED_TRACE(shape_name(request.shape));
+    EXPECT_LT(s.stick_out, 2e-4);  // of any wall, the notch's included
+    EXPECT_LT(s.mean_overlap, 1e-4);
+    EXPECT_EQ(s.clusters, 1);
+    EXPECT_GE(s.fewest_bonds, 1);
+    EXPECT_NEAR(s.size_factor, 1, 0.012);
+    EXPECT_LT(s.porosity_inner, request.container().dimension() == 2 ? 0.17 : 0.385);
+    EXPECT_NO_THROW(check_packing(specimen));
+  }
 }
 
 TEST(Genesis, WideSizesToo) {

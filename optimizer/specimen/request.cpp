@@ -17,6 +17,7 @@ namespace {
 constexpr const char *generator = "radius-expansion-1";
 
 constexpr double fewest_across = 5;  // mean diameters in the smallest size of a container
+constexpr double narrowest_notch = 0.5;  // mean radii; bonds reach over gaps of 0.05 to 0.15
 constexpr double largest_ratio =
     10;  // cells of the neighbour search are as large as the largest particle
 constexpr long most_particles =
@@ -37,10 +38,17 @@ void check_request(const SpecimenRequest &request) {
       errors.add(Place{}, std::string(name) + " of a " + shape + " is " + canonical_number(value) +
                               " m (allowed: > 0)");
   };
-  const bool has_diameter = request.shape != ContainerShape::rectangle;
-  if (request.shape == ContainerShape::rectangle) check_size("width", request.width);
-  if (request.shape != ContainerShape::disc) check_size("height", request.height);
-  if (has_diameter) check_size("diameter", request.diameter);
+  const Dimensions size = request.dimensions();
+  for (const NamedDimension &dimension : dimensions_of(request.shape))
+    check_size(dimension.name, size.*dimension.value);
+  if (request.notch_depth != 0 || request.notch_width != 0) {
+    if (!can_have_notch(request.shape)) {
+      errors.add(Place{}, "a " + shape + " can't have a notch (allowed: rectangle, cylinder, prism)");
+    } else {
+      check_size("notch_depth", request.notch_depth);
+      check_size("notch_width", request.notch_width);
+    }
+  }
   check_size("r_min", request.r_min);
   if (!(std::isfinite(request.r_ratio) && request.r_ratio >= 1 && request.r_ratio <= largest_ratio))
     errors.add(Place{}, "ratio of largest to smallest radius is " +
@@ -58,9 +66,15 @@ void check_request(const SpecimenRequest &request) {
   const auto sizes = size_distribution(request.sizes, request.r_min, request.r_ratio);
   const Container container = request.container();
   const double r_mean = sizes->moment(1), needed = fewest_across * 2 * r_mean;
+  if (container.has_notch() && request.notch_width < narrowest_notch * r_mean)
+    throw UserError("the notch is " + in_metres(request.notch_width) +
+                    " wide, so narrow that bonds would cross it (allowed: at least " +
+                    in_metres(narrowest_notch * r_mean) + ", half a mean radius)");
   if (container.smallest_size() < needed)
     throw UserError("the " + shape + " is " + in_metres(container.smallest_size()) +
-                    " in its smallest direction, too small for particles of mean diameter " +
+                    " in its smallest direction" +
+                    (container.has_notch() ? " (above or beside the notch included)" : "") +
+                    ", too small for particles of mean diameter " +
                     in_metres(2 * r_mean) + " (allowed: at least " + in_metres(needed) +
                     ", five particles across)");
   const int dimension = container.dimension();
@@ -73,8 +87,10 @@ void check_request(const SpecimenRequest &request) {
 
 SpecimenRequest canonical_request(const SpecimenRequest &request) {
   SpecimenRequest rounded = request;
-  for (double *number : {&rounded.width, &rounded.height, &rounded.diameter, &rounded.r_min,
-                         &rounded.r_ratio, &rounded.density, &rounded.overlap}) {
+  for (double *number :
+       {&rounded.width, &rounded.height, &rounded.diameter, &rounded.length, &rounded.notch_depth,
+        &rounded.notch_width, &rounded.r_min, &rounded.r_ratio, &rounded.density,
+        &rounded.overlap}) {
     const std::string text = format_quantity(*number, "", 12);
     std::from_chars(text.data(), text.data() + text.size(), *number);
   }
@@ -89,10 +105,13 @@ std::string canonical_text(const SpecimenRequest &given) {
   };
   line("shape", shape_name(request.shape));
   // Only what the shape has: a stray width given with a disc isn't another disc.
-  if (request.shape == ContainerShape::rectangle) line("width", canonical_number(request.width));
-  if (request.shape != ContainerShape::disc) line("height", canonical_number(request.height));
-  if (request.shape != ContainerShape::rectangle)
-    line("diameter", canonical_number(request.diameter));
+  const Dimensions size = request.dimensions();
+  for (const NamedDimension &dimension : dimensions_of(request.shape))
+    line(dimension.name, canonical_number(size.*dimension.value));
+  if (request.container().has_notch()) {
+    line("notch_depth", canonical_number(request.notch_depth));
+    line("notch_width", canonical_number(request.notch_width));
+  }
   line("r_min", canonical_number(request.r_min));
   line("r_ratio", canonical_number(request.r_ratio));
   line("sizes", request.sizes);

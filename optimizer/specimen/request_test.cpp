@@ -78,6 +78,21 @@ TEST(SpecimenRequest, ContainerMustHoldFiveParticlesAcross) {
               "0.003 m in its smallest direction");
 }
 
+TEST(SpecimenRequest, NotchMustLeaveAnOpeningAndALigament) {
+  const auto notched = [](double depth, double width) {
+    return complaint([=](SpecimenRequest &r) {
+      r.width = 0.05, r.height = 0.025, r.notch_depth = depth, r.notch_width = width;
+    });
+  };
+  EXPECT_EQ(notched(0.01, 0.002), "");
+  expect_part(notched(0.02, 0.002), "(above or beside the notch included)");
+  expect_part(notched(0.01, 0.0003), "bonds would cross it (allowed: at least 0.00051");
+  expect_part(notched(0.01, 0), "notch_width of a rectangle is 0 m");
+  expect_part(notched(-0.01, 0.002), "notch_depth of a rectangle is -0.01 m");
+  expect_part(complaint([](SpecimenRequest &r) { r.notch_depth = 1e-3; }, small_disc()),
+              "a disc can't have a notch");
+}
+
 TEST(SpecimenRequest, SlipInAUnitDoesNotAskForABillionParticles) {
   expect_part(complaint([](SpecimenRequest &r) { r.r_min = 1e-7; }), "more than 2000000 particles");
 }
@@ -102,7 +117,9 @@ TEST(SpecimenKey, DependsOnAllThatMakesThePackingAndOnNothingElse) {
                                                                        [](SpecimenRequest &r) { r.seed = 2; },
                                                                        [](SpecimenRequest &r) { r.density = 2622; },
                                                                        [](SpecimenRequest &r) { r.overlap = 1e-4; },
-                                                                       [](SpecimenRequest &r) { r.sizes = "other"; }};
+                                                                       [](SpecimenRequest &r) { r.sizes = "other"; },
+                                                                       [](SpecimenRequest &r) { r.notch_depth = 0.01, r.notch_width = 0.002; },
+                                                                       [](SpecimenRequest &r) { r.notch_depth = 0.01, r.notch_width = 0.003; }};
   for (const auto &change : changes) {
     SpecimenRequest request = small_rectangle();
     change(request);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // Job: make a seeded, dense, isotropic, nearly stress-free packing of discs or spheres in a
-//   rectangle, disc or cylinder.
+//   rectangle, disc, cylinder, prism or sphere, notched or not (container.h).
 // Method: the material genesis of Potyondy & Cundall 2004 (Int. J. Rock Mech. Min. Sci. 41,
 //   1329-1364, appendix): random places, radii scaled to a low isotropic stress between rigid
 //   frictionless walls, floaters grown until they are held. Differences: equilibrium by energy
@@ -29,10 +29,12 @@ namespace bondlab {
 
 struct SpecimenRequest {
   ContainerShape shape = ContainerShape::rectangle;
-  double width = 0;  // m; rectangle, along x
-  double height =
-      0;  // m; rectangle along y; cylinder along its axis z (a 3D Brazilian disc: its length)
-  double diameter = 0;            // m; disc, cylinder
+  // m; which of them a shape has, and where they lie: container.h
+  double width = 0;     // rectangle, prism: along x
+  double height = 0;    // rectangle, prism: along y; cylinder: along its axis z
+  double diameter = 0;  // disc, cylinder, sphere
+  double length = 0;    // prism: along z
+  double notch_depth = 0, notch_width = 0;  // rectangle, cylinder, prism; depth 0: no notch
   double r_min = 0;               // m; smallest radius
   double r_ratio = 1.66;          // largest over smallest radius
   std::string sizes = "uniform";  // a name of size_distribution_names()
@@ -42,7 +44,14 @@ struct SpecimenRequest {
   double overlap = 2e-5;  // mean overlap of contacts over mean radius: the locked-in stress, about
                           // 2e-5 of the modulus E_c
 
-  Container container() const { return Container(shape, width, height, diameter); }
+  Dimensions dimensions() const {
+    return {width, height, diameter, length, notch_depth, notch_width};
+  }
+  void set_dimensions(const Dimensions &size) {
+    width = size.width, height = size.height, diameter = size.diameter, length = size.length;
+    notch_depth = size.notch_depth, notch_width = size.notch_width;
+  }
+  Container container() const { return Container(shape, dimensions()); }
 };
 
 struct Specimen {

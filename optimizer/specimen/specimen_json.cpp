@@ -22,9 +22,12 @@ double rounded(double value, int digits) {
 
 void put_container(Json &json, const SpecimenRequest &request) {
   json["shape"] = shape_name(request.shape);
-  if (request.shape == ContainerShape::rectangle) json["width"] = request.width;
-  if (request.shape != ContainerShape::disc) json["height"] = request.height;
-  if (request.shape != ContainerShape::rectangle) json["diameter"] = request.diameter;
+  const Dimensions size = request.dimensions();
+  for (const NamedDimension &dimension : dimensions_of(request.shape))
+    json[dimension.name] = size.*dimension.value;
+  if (!request.container().has_notch()) return;
+  json["notch_depth"] = request.notch_depth;
+  json["notch_width"] = request.notch_width;
 }
 
 }  // namespace
@@ -55,9 +58,14 @@ std::optional<MetadataLine> parse_metadata_line(const std::string &text) {
     MetadataLine line;
     SpecimenRequest &request = line.request;
     request.shape = shape_from_name(json.at("shape"));
-    if (request.shape == ContainerShape::rectangle) request.width = json.at("width");
-    if (request.shape != ContainerShape::disc) request.height = json.at("height");
-    if (request.shape != ContainerShape::rectangle) request.diameter = json.at("diameter");
+    Dimensions size;
+    for (const NamedDimension &dimension : dimensions_of(request.shape))
+      size.*dimension.value = json.at(dimension.name);
+    if (json.contains("notch_depth")) {
+      size.notch_depth = json.at("notch_depth");
+      size.notch_width = json.at("notch_width");
+    }
+    request.set_dimensions(size);
     request.seed = json.at("seed");
     line.key = json.at("key");
     return line;

@@ -37,6 +37,18 @@ inline SpecimenRequest small_cylinder() {  // 506 spheres
   return request;
 }
 
+inline SpecimenRequest notched_beam() {  // 3D
+  SpecimenRequest request;
+  request.shape = ContainerShape::prism;
+  request.width = 0.008;
+  request.height = 0.01;
+  request.length = 0.03;
+  request.notch_depth = 0.003;
+  request.notch_width = 0.001;
+  request.r_min = 0.5e-3;
+  return request;
+}
+
 // Particles at random places of a box with the given sides (z = 0 when the third is 0),
 // overlapping.
 inline std::vector<Particle> random_particles(std::size_t count, double x, double y, double z,

@@ -5,10 +5,8 @@ namespace bondlab {
 
 SpecimenRequest specimen_request(const SpecimenEntry &entry, int packing) {
   SpecimenRequest request;
-  request.shape = shape_from_name(to_string(entry.shape));
-  request.width = entry.width;
-  request.height = entry.height;
-  request.diameter = entry.diameter;
+  request.shape = entry.shape;
+  request.set_dimensions(entry.size);
   request.r_min = entry.r_min;
   request.r_ratio = entry.r_ratio;
   request.sizes = entry.sizes;

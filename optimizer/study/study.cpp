@@ -8,18 +8,6 @@
 
 namespace bondlab {
 
-std::string to_string(SpecimenShape shape) {
-  switch (shape) {
-    case SpecimenShape::rectangle:
-      return "rectangle";
-    case SpecimenShape::disc:
-      return "disc";
-    case SpecimenShape::cylinder:
-      return "cylinder";
-  }
-  return "";
-}
-
 std::string DeckValue::text() const { return is_word() ? word : canonical_number(number); }
 
 template <class Entry>

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "base/user_error.h"
+#include "specimen/container.h"
 #include "study/measurement.h"
 #include "study/test_definition.h"
 
@@ -25,15 +26,13 @@ namespace bondlab {
 
 using StudyErrors = UserErrors;
 
-enum class SpecimenShape { rectangle, disc, cylinder };
+using SpecimenShape = ContainerShape;
 enum class Scale { linear, logarithmic };
 
 struct SpecimenEntry {
   std::string name;
   SpecimenShape shape = SpecimenShape::rectangle;
-  double width = 0;     // m; rectangle
-  double height = 0;    // m; rectangle, cylinder (axis z; the length of a 3D Brazilian disc)
-  double diameter = 0;  // m; disc, cylinder
+  Dimensions size;      // m; those the shape has, and its notch
   double thickness =
       1;             // m; of 2D specimens (rectangle, disc): mass pi R^2 t rho, forces in newtons
   double r_min = 0;  // m; smallest particle radius
@@ -42,9 +41,8 @@ struct SpecimenEntry {
   double density = 2600;          // kg/m3; of the particles
   std::uint64_t seed = 1;
   Place place;
-  int dimensions() const { return shape == SpecimenShape::cylinder ? 3 : 2; }
+  int dimensions() const { return is_flat(shape) ? 2 : 3; }
 };
-std::string to_string(SpecimenShape shape);
 
 // The value of a deck variable: a number in SI, or a word ("weibull").
 struct DeckValue {

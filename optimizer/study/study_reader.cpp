@@ -45,28 +45,29 @@ double positive_length(TomlTable &table, const std::string &key, bool required,
 }
 
 void read_dimensions(TomlTable &table, SpecimenEntry &specimen) {
-  const bool rectangle = specimen.shape == SpecimenShape::rectangle,
-             disc = specimen.shape == SpecimenShape::disc;
-  const std::vector<std::string> own =
-      rectangle ? std::vector<std::string>{"width", "height", "thickness"}
-      : disc    ? std::vector<std::string>{"diameter", "thickness"}
-                : std::vector<std::string>{"diameter", "height"};
-  const struct {
-    const char *key;
-    double &value;
-  } lengths[] = {{"width", specimen.width},
-                 {"height", specimen.height},
-                 {"diameter", specimen.diameter},
-                 {"thickness", specimen.thickness}};
-  for (const auto &length : lengths) {
-    const bool belongs = std::find(own.begin(), own.end(), length.key) != own.end();
-    const bool optional = std::string(length.key) == "thickness";
-    if (belongs || table.has(length.key))
-      length.value = positive_length(table, length.key, belongs && !optional, length.value);
-    if (!belongs && table.has(length.key))
-      table.errors().add(
-          table.key_place(length.key),
-          "a " + to_string(specimen.shape) + " has no '" + length.key + "'; it has: " + join(own));
+  std::vector<std::string> own;
+  for (const NamedDimension &dimension : dimensions_of(specimen.shape)) {
+    own.push_back(dimension.name);
+    specimen.size.*dimension.value = positive_length(table, dimension.name, true);
+  }
+  if (can_have_notch(specimen.shape)) {
+    own.insert(own.end(), {"notch_depth", "notch_width"});
+    // One of them alone makes the other required.
+    const bool notched = table.has("notch_depth") || table.has("notch_width");
+    specimen.size.notch_depth = notched ? positive_length(table, "notch_depth", true) : 0;
+    specimen.size.notch_width = notched ? positive_length(table, "notch_width", true) : 0;
+  }
+  if (is_flat(specimen.shape)) {
+    own.push_back("thickness");
+    specimen.thickness = positive_length(table, "thickness", false, specimen.thickness);
+  }
+  for (const char *name :
+       {"width", "height", "diameter", "length", "notch_depth", "notch_width", "thickness"}) {
+    if (!table.has(name) || std::find(own.begin(), own.end(), name) != own.end()) continue;
+    positive_length(table, name, false);
+    table.errors().add(
+        table.key_place(name),
+        "a " + shape_name(specimen.shape) + " has no '" + name + "'; it has: " + join(own));
   }
 }
 
@@ -91,10 +92,9 @@ void read_specimens(TomlTable &top, Study &study) {
     SpecimenEntry specimen;
     specimen.place = table.place();
     specimen.name = read_name(table, study.specimens);
-    const std::string shape = table.choice("shape", {"rectangle", "disc", "cylinder"}, true);
-    specimen.shape = shape == "disc"       ? SpecimenShape::disc
-                     : shape == "cylinder" ? SpecimenShape::cylinder
-                                           : SpecimenShape::rectangle;
+    const std::string shape = table.choice("shape", container_shape_names(), true);
+    for (const std::string &name : container_shape_names())
+      if (name == shape) specimen.shape = shape_from_name(name);
     read_dimensions(table, specimen);
     specimen.r_min = positive_length(table, "r_min", true);
     specimen.r_ratio = table.quantity("r_ratio", "1").value_or(specimen.r_ratio);
@@ -156,9 +156,9 @@ void read_test_variables(TomlTable &table, const toml::table &entries, TestEntry
 void check_specimen_fits(TomlTable &table, const TestEntry &test, const SpecimenEntry &specimen) {
   const auto &shapes = test.definition.shapes;
   if (!shapes.empty() &&
-      std::find(shapes.begin(), shapes.end(), to_string(specimen.shape)) == shapes.end())
+      std::find(shapes.begin(), shapes.end(), shape_name(specimen.shape)) == shapes.end())
     table.error("specimen", "the specimen '" + specimen.name + "' is a " +
-                                to_string(specimen.shape) + "; the test '" + test.test +
+                                shape_name(specimen.shape) + "; the test '" + test.test +
                                 "' takes: " + join(shapes));
   const auto in_deck = test.definition.deck_defaults.find("dim");
   if (in_deck == test.definition.deck_defaults.end()) return;
@@ -166,7 +166,7 @@ void check_specimen_fits(TomlTable &table, const TestEntry &test, const Specimen
   const std::string dim = set == test.variables.end() ? in_deck->second : set->second.text();
   if (dim != std::to_string(specimen.dimensions()))
     table.errors().add(table.has("variables") ? table.place("variables") : table.place("specimen"),
-                       "the specimen '" + specimen.name + "' (" + to_string(specimen.shape) +
+                       "the specimen '" + specimen.name + "' (" + shape_name(specimen.shape) +
                            ") needs dim = " + std::to_string(specimen.dimensions()) +
                            ", the test has dim = " + dim +
                            (set == test.variables.end() ? " (the deck's default)" : ""));

@@ -27,8 +27,8 @@ TEST(ReadStudy, KeepsEverythingInSi) {
   EXPECT_EQ(study.name, "slab");
   const SpecimenEntry &specimen = study.specimen("slab");
   EXPECT_EQ(specimen.shape, SpecimenShape::rectangle);
-  EXPECT_EQ(specimen.width, 0.05);
-  EXPECT_EQ(specimen.height, 0.1);
+  EXPECT_EQ(specimen.size.width, 0.05);
+  EXPECT_EQ(specimen.size.height, 0.1);
   EXPECT_EQ(specimen.thickness, 1);
   EXPECT_EQ(specimen.r_min, 0.00066);
   EXPECT_EQ(specimen.dimensions(), 2);

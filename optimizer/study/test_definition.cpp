@@ -54,6 +54,7 @@ DeckVariable read_variable(const std::string &name, TomlTable table) {
 
 const std::vector<std::string> &variables_from_specimen() {
   static const std::vector<std::string> names{"specimen", "width", "height", "diameter",
+                                              "length",   "notch_depth", "notch_width",
                                               "thickness"};
   return names;
 }

@@ -60,7 +60,7 @@ TestDefinition read_test_definition(const std::filesystem::path &folder, ErrorCo
 // Deck variables that the launcher fills in from the specimen; neither test.toml nor a study may
 // set them.
 const std::vector<std::string>
-    &variables_from_specimen();  // specimen, width, height, diameter, thickness
+    &variables_from_specimen();  // specimen, its sizes (container.h), thickness
 
 // The number the deck gets: the SI value in the variable's own unit.
 double deck_number(const DeckVariable &variable, double value);
