@@ -40,13 +40,29 @@ void BondBPM::compute(int eflag, int vflag) {
   refresh();
   const bool advance = !update->setupflag;
   if (flat())
-    walk<Kinematics2, Orientations2, PairLoads2>(advance);
+    step<Kinematics2, Orientations2, PairLoads2>(advance);
   else
-    walk<Kinematics3, Orientations3, PairLoads3>(advance);
+    step<Kinematics3, Orientations3, PairLoads3>(advance);
 }
 
 template <class Kinematics, class Orientations, class Loads>
-void BondBPM::walk(bool advance) {
+void BondBPM::step(bool advance) {
+  PairTable &t = table();
+  const bondlab::ParticleRecords &records = grain_ ? style_->records() : style_->fill_records();
+  walk<Kinematics, Orientations, Loads>(advance, records, [&](Block &block, const Loads &loads, int kind) {
+    if (kind == FOREIGN) {
+      restore_foreign(block);
+      bondlab::scatter(t, block.first, atom->nlocal, loads, atom->f, atom->torque,
+                       [this](int row) { return computes(row); });
+    } else {
+      bondlab::scatter(t, block.first, atom->nlocal, loads, atom->f, atom->torque);
+    }
+    if (advance) finish_step(block);
+  });
+}
+
+template <class Kinematics, class Orientations, class Loads, class Sink>
+void BondBPM::walk(bool advance, const bondlab::ParticleRecords &records, Sink sink) {
   PairTable &t = table();
   const int n = t.size();
   const double dt = advance ? update->dt : 0.0;
@@ -54,7 +70,6 @@ void BondBPM::walk(bool advance) {
   Kinematics kinematics;
   Orientations turned;
   Loads loads;
-  const bondlab::ParticleRecords &records = grain_ ? style_->records() : style_->fill_records();
   for (int first = 0; first < n; first += kBlock) {
     const int kind = block_type_[first / kBlock];
     if (kind == NONE) continue;
@@ -64,15 +79,27 @@ void BondBPM::walk(bool advance) {
     block.dt = dt;
     if (orientations_) bondlab::gather(t, first, style_->quat, turned);
     run_block(block, kinematics, turned, advance, loads);
-    if (kind == FOREIGN) {
-      restore_foreign(block);
-      bondlab::scatter(t, first, atom->nlocal, loads, atom->f, atom->torque,
-                       [this](int row) { return computes(row); });
-    } else {
-      bondlab::scatter(t, first, atom->nlocal, loads, atom->f, atom->torque);
-    }
-    if (advance) finish_step(block);
+    sink(block, loads, kind);
   }
+}
+
+void BondBPM::for_each_force(const VisitForce &visit) {
+  refresh();
+  const bondlab::ParticleRecords &records = style_->fill_records();
+  const auto sink = [&](Block &block, const auto &loads, int) {
+    const int n = std::min(kBlock, table().size() - block.first);
+    for (int lane = 0; lane < n; lane++) {
+      const int row = block.first + lane;
+      if (!computes(row)) continue;
+      double f[3];
+      bondlab::force_of(loads, lane, f);
+      visit(row, f);
+    }
+  };
+  if (flat())
+    walk<Kinematics2, Orientations2, PairLoads2>(false, records, sink);
+  else
+    walk<Kinematics3, Orientations3, PairLoads3>(false, records, sink);
 }
 
 // Lays out one block for the law: state in place, unless other styles own some of the lanes.

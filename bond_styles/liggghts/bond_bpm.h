@@ -20,6 +20,7 @@
 #ifndef BONDLAB_BOND_BPM_H
 #define BONDLAB_BOND_BPM_H
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,10 @@ class BondBPM : public Bond {
   };
   virtual Values values(int row) = 0;
   double contact_row_energy(int row) const;
+  // Visits every bond of this style on this rank: the force on its smaller-tag particle (bond and its
+  // grain contact, N, without dashpots) as it stands. visit(row, force)
+  using VisitForce = std::function<void(int, const double *)>;
+  void for_each_force(const VisitForce &visit);
   // Stiffness of the row for the time step: normal and shear force (N/m), bend and twist (N m).
   struct Stiffness {
     double normal, shear, bend, twist;
@@ -189,8 +194,11 @@ class BondBPM : public Bond {
   void derive_rows();
   void view(int first, const double *ri, const double *rj, Block &);
   void restore_foreign(Block &);
+  // sink(block, loads, kind): what is to be done with a block's loads
+  template <class Kinematics, class Orientations, class Loads, class Sink>
+  void walk(bool advance, const bondlab::ParticleRecords &, Sink sink);
   template <class Kinematics, class Orientations, class Loads>
-  void walk(bool advance);
+  void step(bool advance);
   void run_block(Block &b, const bondlab::laws::Kinematics3 &k, const bondlab::laws::Orientations3 &q,
                  bool advance, bondlab::laws::PairLoads3 &l) { block_3d(b, k, q, advance, l); }
   void run_block(Block &b, const bondlab::laws::Kinematics2 &k, const bondlab::laws::Orientations2 &q,

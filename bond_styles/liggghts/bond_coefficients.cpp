@@ -78,7 +78,7 @@ BondOptions BondCoefficients::take_options() {
       continue;
     }
     next_ = k + 1;
-    if (word == "softening") options.fracture_energy = number("softening (fracture energy, J/m2)", positive);
+    if (word == "softening") options.fracture_energy = number("softening (fracture energy, J/m2)", not_negative);
     if (word == "tension_modulus") options.tension = number("tension_modulus (E_t/E_c)", positive);
     if (word == "damping") options.damping = number("damping (share of the critical)", not_negative);
     if (word == "contact") options.contact = flag("contact") ? 1.0 : 0.0;

@@ -181,6 +181,14 @@ inline void scatter(const PairTable &t, int first, int nlocal, const laws::PairL
   }
 }
 
+// Force on the smaller-tag particle of one lane, N.
+inline void force_of(const laws::PairLoads3 &l, int lane, double *f) {
+  f[0] = l.fx[lane], f[1] = l.fy[lane], f[2] = l.fz[lane];
+}
+inline void force_of(const laws::PairLoads2 &l, int lane, double *f) {
+  f[0] = l.fx[lane], f[1] = l.fy[lane], f[2] = 0.0;
+}
+
 template <class Loads>
 inline void scatter(const PairTable &t, int first, int nlocal, const Loads &p, double **force,
                     double **torque) {

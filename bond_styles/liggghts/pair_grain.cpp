@@ -190,10 +190,27 @@ void PairGrain::compute(int eflag, int vflag) {
   else
     evflag = vflag_fdotr = 0;
   refresh();
+  const PairTable &t = style_->contacts;
+  walk(!update->setupflag, style_->fill_records(), [&](int first, const auto &loads) {
+    bondlab::scatter(t, first, atom->nlocal, loads, atom->f, atom->torque);
+  });
+}
+
+void PairGrain::for_each_force(const std::function<void(int, const double *)> &visit) {
+  refresh();
+  walk(false, style_->fill_records(), [&](int first, const auto &loads) {
+    for (int lane = 0; lane < std::min(kBlock, style_->contacts.size() - first); lane++) {
+      double f[3];
+      bondlab::force_of(loads, lane, f);
+      visit(first + lane, f);
+    }
+  });
+}
+
+template <class Sink>
+void PairGrain::walk(bool advance, const bondlab::ParticleRecords &records, Sink sink) {
   PairTable &t = style_->contacts;
-  const bool advance = !update->setupflag;
   const double dt = advance ? update->dt : 0.0;
-  const bondlab::ParticleRecords &records = style_->fill_records();
   for (int first = 0; first < t.size(); first += kBlock) {
     const ContactParameters c{reference_.data() + first, kn_.data() + first, ks_.data() + first,
                               mu_.data() + first};
@@ -202,14 +219,13 @@ void PairGrain::compute(int eflag, int vflag) {
       PairLoads2 loads;
       bondlab::gather(t, first, dt, records, k);
       contact_block_2d(k, c, advance, t.block(0, first), loads);
-      bondlab::scatter(t, first, atom->nlocal, loads, atom->f, atom->torque);
+      sink(first, loads);
     } else {
       Kinematics3 k;
       PairLoads3 loads;
       bondlab::gather(t, first, dt, records, k);
-      contact_block_3d(k, c, advance, t.block(0, first), t.block(1, first),
-                       t.block(2, first), loads);
-      bondlab::scatter(t, first, atom->nlocal, loads, atom->f, atom->torque);
+      contact_block_3d(k, c, advance, t.block(0, first), t.block(1, first), t.block(2, first), loads);
+      sink(first, loads);
     }
   }
 }

@@ -17,6 +17,7 @@ PairStyle(grain,PairGrain)
 #define BONDLAB_PAIR_GRAIN_H
 
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "atom.h"
@@ -40,6 +41,9 @@ class PairGrain : public Pair {
   // Visits this rank's share of the unbonded contacts: (kn, ks, overlap, shear force), each once.
   template <class Visit>
   void for_each_contact(Visit visit) const;
+  // Visits every unbonded contact on this rank: visit(row of style->contacts, force on the smaller-tag
+  // particle, N).
+  void for_each_force(const std::function<void(int, const double *)> &visit);
   int candidates() const { return style_->contacts.size(); }
   void refresh();
 
@@ -60,6 +64,9 @@ class PairGrain : public Pair {
   bigint seen_generation_;
   double largest_radius_;
   std::vector<double> reference_, kn_, ks_, mu_;
+  // loads of all blocks in turn; sink(first row, loads)
+  template <class Sink>
+  void walk(bool advance, const bondlab::ParticleRecords &, Sink sink);
   void allocate();
 };
 
