@@ -47,11 +47,14 @@ struct OptionArrays {
   double* lost = nullptr;           // state: energy dissipated by damping and softening so far, J
 };
 
-// The share w of its effective load that a bond carries; 0: broken.
+// The share w of its effective load that a bond carries; 0: broken. One formula for all cases and a
+// single choice at the end, so that loops over it are vectorised: (s_f - s)/(s_f - 1)/s, with nothing
+// left at s = 1 if the bond is brittle.
 inline double integrity(double worst, double failure) {
-  const double falling = (failure / worst - 1.0) / (failure - 1.0);  // failure = 1: not used
-  const double softening = falling > 0.0 ? falling : 0.0;
-  return worst < 1.0 ? 1.0 : (failure > 1.0 ? softening : 0.0);
+  const double span = failure > 1.0 ? failure - 1.0 : 1.0, reached = worst > 1.0 ? worst : 1.0;
+  const double falling = (failure - reached) / (span * reached);
+  const double left = falling > 0.0 ? falling : 0.0;
+  return worst < 1.0 ? 1.0 : left;
 }
 
 // Energy that softening takes in a step, J: s_max goes from `before` to `worst`, at which the effective

@@ -124,7 +124,13 @@ void parallel_block_3d(const Kinematics3& k, const ParallelArrays3& a, const Con
     const BondSection section = round_section(radius[b]);
     const double kn = stiffness[b], ks = kn / ratio[b], alive = alive_b[b];
     double fn = kn * section.area * (p.distance - rest[b]);
-    if constexpr (options) fn *= fn > 0.0 ? tension_o[b] : 1.0;
+    double opening = 1.0, failure = 1.0, viscous = 0.0, worst_before = 0.0;
+    if constexpr (options) {  // read before any choice is made: a load in a branch isn't vectorised
+      opening = tension_o[b], failure = failure_o[b], viscous = viscous_o[b];
+      worst_before = worst_o[b];
+      opening = fn > 0.0 ? opening : 1.0;
+      fn *= opening;
+    }
     const Vec3 fs = p.carried(Vec3{fsx[b], fsy[b], fsz[b]}) + (ks * section.area) * p.shear;
     const Vec3 mb = p.carried(Vec3{mbx[b], mby[b], mbz[b]}) + (kn * section.bend) * p.bend;
     const double mt = mt_b[b] + ks * section.twist * p.twist;
@@ -144,11 +150,11 @@ void parallel_block_3d(const Kinematics3& k, const ParallelArrays3& a, const Con
       const double opened = sigma / sigma_c[b];
       const double slid = shear_strength > 0.0 ? tau / shear_strength : (shear ? 1e300 : 0.0);
       const double factor = opened > slid ? opened : slid;
-      worst = worst_o[b] > factor || !advance ? worst_o[b] : factor;
-      share = integrity(worst, failure_o[b]);
-      const bool broken = share <= 0.0;
+      worst = !advance || worst_before > factor ? worst_before : factor;
+      share = integrity(worst, failure);
+      const bool broken = worst >= failure;
       // brittle: tension is looked at first; softening: the larger of the two rules
-      tension = broken & ((opened >= slid) | ((failure_o[b] <= 1.0) & (opened >= 1.0)));
+      tension = broken & ((opened >= slid) | ((failure <= 1.0) & (opened >= 1.0)));
       shear = broken & !tension;
     }
     hold = advance ? ((tension | shear) ? 0.0 : alive) : alive;
@@ -162,20 +168,20 @@ void parallel_block_3d(const Kinematics3& k, const ParallelArrays3& a, const Con
       fs_out = share * fs_out, mb_out = share * mb_out, mt_out *= share;
       fn_out *= fn > 0.0 ? share : 1.0;
       const double stored = option_energy(fn > 0.0 ? fn : 0.0, dot(fs, fs), dot(mb, mb), mt * mt,
-                                          kn * (fn > 0.0 ? tension_o[b] : 1.0), ks, kn,
+                                          kn * opening, ks, kn,
                                           section.area, section.bend, section.twist);
       // dashpots, with the motion of the step
-      const double vn = viscous_o[b] * hold * kn * section.area;
-      const double vs = viscous_o[b] * hold * ks * section.area;
-      const double vb = viscous_o[b] * hold * kn * section.bend;
-      const double vt = viscous_o[b] * hold * ks * section.twist;
+      const double vn = viscous * hold * kn * section.area;
+      const double vs = viscous * hold * ks * section.area;
+      const double vb = viscous * hold * kn * section.bend;
+      const double vt = viscous * hold * ks * section.twist;
       const double stretch = stretched(p, Vec3{k.ux[b], k.uy[b], k.uz[b]}, Vec3{k.dx[b], k.dy[b], k.dz[b]});
       fn_out += vn * stretch;
       fs_out = fs_out + vs * p.shear;
       mb_out = mb_out + vb * p.bend;
       mt_out += vt * p.twist;
       if constexpr (advance) {
-        lost_o[b] += alive * softening_loss(worst_o[b], worst, failure_o[b], stored) + vn * stretch * stretch +
+        lost_o[b] += alive * softening_loss(worst_before, worst, failure, stored) + vn * stretch * stretch +
                      vs * dot(p.shear, p.shear) + vb * dot(p.bend, p.bend) + vt * p.twist * p.twist;
         worst_o[b] = worst;
       }
@@ -228,7 +234,13 @@ void parallel_block_2d(const Kinematics2& k, const ParallelArrays2& a, const Con
     const BondSection section = strip_section(radius[b], thickness);
     const double kn = stiffness[b], ks = kn / ratio[b], alive = alive_b[b];
     double fn = kn * section.area * (p.distance - rest[b]);
-    if constexpr (options) fn *= fn > 0.0 ? tension_o[b] : 1.0;
+    double opening = 1.0, failure = 1.0, viscous = 0.0, worst_before = 0.0;
+    if constexpr (options) {  // read before any choice is made: a load in a branch isn't vectorised
+      opening = tension_o[b], failure = failure_o[b], viscous = viscous_o[b];
+      worst_before = worst_o[b];
+      opening = fn > 0.0 ? opening : 1.0;
+      fn *= opening;
+    }
     const double fs = fs_b[b] + ks * section.area * p.shear;
     const double mb = mb_b[b] + kn * section.bend * k.q[b];
 
@@ -244,11 +256,11 @@ void parallel_block_2d(const Kinematics2& k, const ParallelArrays2& a, const Con
       const double opened = sigma / sigma_c[b];
       const double slid = shear_strength > 0.0 ? tau / shear_strength : (shear ? 1e300 : 0.0);
       const double factor = opened > slid ? opened : slid;
-      worst = worst_o[b] > factor || !advance ? worst_o[b] : factor;
-      share = integrity(worst, failure_o[b]);
-      const bool broken = share <= 0.0;
+      worst = !advance || worst_before > factor ? worst_before : factor;
+      share = integrity(worst, failure);
+      const bool broken = worst >= failure;
       // brittle: tension is looked at first; softening: the larger of the two rules
-      tension = broken & ((opened >= slid) | ((failure_o[b] <= 1.0) & (opened >= 1.0)));
+      tension = broken & ((opened >= slid) | ((failure <= 1.0) & (opened >= 1.0)));
       shear = broken & !tension;
     }
     hold = advance ? ((tension | shear) ? 0.0 : alive) : alive;
@@ -261,15 +273,15 @@ void parallel_block_2d(const Kinematics2& k, const ParallelArrays2& a, const Con
       fs_out *= share, mb_out *= share;
       fn_out *= fn > 0.0 ? share : 1.0;
       const double stored = option_energy(fn > 0.0 ? fn : 0.0, fs * fs, mb * mb, 0.0,
-                                          kn * (fn > 0.0 ? tension_o[b] : 1.0), ks, kn,
+                                          kn * opening, ks, kn,
                                           section.area, section.bend, 1.0);
-      const double vn = viscous_o[b] * hold * kn * section.area;
-      const double vs = viscous_o[b] * hold * ks * section.area;
-      const double vb = viscous_o[b] * hold * kn * section.bend;
+      const double vn = viscous * hold * kn * section.area;
+      const double vs = viscous * hold * ks * section.area;
+      const double vb = viscous * hold * kn * section.bend;
       const double stretch = stretched(p, k.ux[b], k.uy[b], k.dx[b], k.dy[b]);
       fn_out += vn * stretch, fs_out += vs * p.shear, mb_out += vb * k.q[b];
       if constexpr (advance) {
-        lost_o[b] += alive * softening_loss(worst_o[b], worst, failure_o[b], stored) + vn * stretch * stretch +
+        lost_o[b] += alive * softening_loss(worst_before, worst, failure, stored) + vn * stretch * stretch +
                      vs * p.shear * p.shear + vb * k.q[b] * k.q[b];
         worst_o[b] = worst;
       }
