@@ -48,6 +48,7 @@ int main(int argc, char **argv) {
     bondlab::add_fit(app);
     bondlab::add_report(app);
     bondlab::add_specimen(app);
+    bondlab::add_view(app);
     refuse_unknown_command(app, argc, argv);
     app.parse(argc, argv);
     return 0;

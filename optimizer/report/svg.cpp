@@ -112,6 +112,8 @@ void SvgWriter::text(double x, double y, const std::string &text, const std::str
                       xml_escape(text));
 }
 
+void SvgWriter::raw(const std::string &markup) { out_ += markup; }
+
 std::string SvgWriter::finish() { return out_ + "</svg>\n"; }
 
 }  // namespace bondlab

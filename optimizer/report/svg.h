@@ -31,6 +31,7 @@ class SvgWriter {
   void rectangle(double x, double y, double width, double height, const std::string &attributes);
   void path(const std::string &d, const std::string &attributes);
   void text(double x, double y, const std::string &text, const std::string &attributes);
+  void raw(const std::string &markup);  // as it stands
 
   std::string finish();  // the whole picture, with XML declaration-free root element
 

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Job: all pictures and ParaView files of a run, written into a folder.
+// Method: every picture that the run has data for; in 3D each of a slice, and cracks, displacement
+//   and fragments of the whole body too. PNG by rsvg-convert where it is asked for.
+// Units: none.
+// Failure: UserError when a file can't be written, gnuplot is missing, or rsvg-convert is missing
+//   and PNG was asked for.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "view/run_data.h"
+
+namespace bondlab {
+
+struct ViewOutput {
+  std::string plane;  // of slices: "xz"; empty: chosen
+  bool png = false;
+  bool paraview = true;
+};
+
+struct ViewWritten {
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> missing;  // what there was no picture of and why
+};
+
+ViewWritten write_view(const RunView &run, const std::filesystem::path &folder,
+                       const ViewOutput &output = {});
+
+}  // namespace bondlab
