@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "base/user_error.h"
 #include "specimen/floaters.h"
+#include "specimen/neighbours.h"
 #include "specimen/relax.h"
 #include "specimen/size_distribution.h"
 #include "specimen/space_filling.h"
@@ -30,6 +31,7 @@ constexpr int least_relaxed_growths = 3,
               most_relaxed_growths = 10;  // seating floaters and relaxing
 constexpr int most_growths = 200;         // rounds of seating what is left, without
 constexpr double largest_growth = 1.15;   // of a floater, over r_max
+constexpr double growth_of_loose = 1.3;   // the same, of one that would have no bond otherwise
 constexpr double no_load = 0.02, faint_load = 0.2, any_load = 1e9;  // of the mean overlap
 constexpr int most_steps = 5000;                                    // of one minimisation
 constexpr double coarse_tolerance = 1e-2, fine_tolerance = 2e-3;
@@ -181,6 +183,33 @@ int eliminate_floaters(Packing &packing, Relaxation &relaxation, double overlap,
   return grown;
 }
 
+// Particles that are bonded to the largest part by no chain of gaps below bond_gap.
+std::vector<bool> find_detached(const std::vector<Particle> &particles) {
+  double r_mean = 0;
+  for (const Particle &p : particles) r_mean += p.r / static_cast<double>(particles.size());
+  const Clusters clusters = connected_clusters(find_pairs(particles, bond_gap * r_mean));
+  std::vector<std::size_t> size(static_cast<std::size_t>(clusters.count), 0);
+  for (const int label : clusters.label) ++size[static_cast<std::size_t>(label)];
+  const auto largest = std::max_element(size.begin(), size.end()) - size.begin();
+  std::vector<bool> detached(particles.size());
+  for (std::size_t i = 0; i < particles.size(); ++i) detached[i] = clusters.label[i] != largest;
+  return detached;
+}
+
+// A hole may be too large for the growth that floaters are allowed, about one in 40,000 (2D): its
+// particle would have no bond, and the packing could not be tested. It may grow farther; one that
+// is then still loose is taken out.
+void attach_or_remove(Packing &packing, double r_max) {
+  std::vector<bool> detached = find_detached(packing.particles);
+  if (std::find(detached.begin(), detached.end(), true) == detached.end()) return;
+  seat(packing, detached, 0, growth_of_loose / largest_growth * r_max * packing.size_factor);
+  detached = find_detached(packing.particles);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < detached.size(); ++i)
+    if (!detached[i]) packing.particles[kept++] = packing.particles[i];
+  packing.particles.resize(kept);
+}
+
 }  // namespace
 
 Specimen make_specimen(const SpecimenRequest &given, const SpecimenProgressCallback &progress) {
@@ -221,6 +250,8 @@ Specimen make_specimen(const SpecimenRequest &given, const SpecimenProgressCallb
   reach_overlap(packing, relaxation, request.overlap, fine_tolerance);
   tell("growing floaters", 0.6);
   const int grown = eliminate_floaters(packing, relaxation, request.overlap, sizes->largest());
+
+  attach_or_remove(packing, sizes->largest());
 
   tell("measuring", 0.95);
   reorder(packing.particles);

@@ -13,7 +13,7 @@
 //   equilibrium is found.
 // Limits: the count follows from the container and the sizes; to reach the stress the radii of a
 //   packing are all scaled by one factor within about 0.5 % of 1, and a floater may grow up to 15 %
-//   beyond r_max. Statistics give the radii as they are.
+//   beyond r_max (30 % where it would have no bond otherwise). Statistics give the radii as they are.
 #pragma once
 
 #include <cstddef>
