@@ -22,6 +22,7 @@ class RunsFailed : public std::runtime_error {
 
 void add_check(CLI::App &app);
 void add_run(CLI::App &app);
+void add_compare(CLI::App &app);
 void add_fit(CLI::App &app);
 void add_report(CLI::App &app);
 void add_specimen(CLI::App &app);

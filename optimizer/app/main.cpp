@@ -45,6 +45,7 @@ int main(int argc, char **argv) {
   try {
     bondlab::add_check(app);
     bondlab::add_run(app);
+    bondlab::add_compare(app);
     bondlab::add_fit(app);
     bondlab::add_report(app);
     bondlab::add_specimen(app);

@@ -104,6 +104,27 @@ struct FitOptions {
   int max_failed = 3;     // forward runs that may fail before a fit gives up
 };
 
+// A response by the name that published tables give it, and how close a simulation has to come.
+struct PublishedQuantity {
+  std::string name;
+  std::string test, response;  // as in Target
+  std::string unit;            // to show it in
+  double tolerance = 0;        // SI, or a share of the published value
+  bool relative = true;
+  bool judged = true;          // else only reported
+  Place place;
+};
+
+// One row of a published table: a parameter set and what its authors got with it.
+struct PublishedCase {
+  std::string name;
+  std::vector<double> values;                // in the order of Study::parameters, SI
+  std::map<std::string, double> expected;    // by the name of a PublishedQuantity, SI
+  std::map<std::string, double> expected_sd; // where it was published
+  std::string source;
+  Place place;
+};
+
 struct Assumption {
   std::string text;
   std::string source;
@@ -119,6 +140,9 @@ struct Study {
   std::vector<Target> targets;
   std::vector<FitEntry> fits;
   FitOptions options;
+  std::vector<PublishedQuantity> quantities;
+  std::vector<PublishedCase> cases;
+  int case_packings = 5;  // packings each case is run on
   std::vector<Assumption> assumptions;
   std::vector<std::string> notes;
   std::optional<DataFolder> data;

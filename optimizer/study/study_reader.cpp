@@ -271,6 +271,7 @@ Study read_study(const fs::path &file) {
   read_parameters(top, study);
   read_targets(top, study);
   read_fits(top, study);
+  read_published(top, study);
   read_fit_options(top, study);
   read_assumptions(top, study);
   read_data(top, study);

@@ -3,13 +3,14 @@
 # The test programs and how ctest runs them. Included by CMakeLists.txt.
 #
 # Labels: physics (laws, engine-free), unit (optimiser and tools), engine (start lmp_bondlab),
-# study (whole studies). Tests that start MPI or several runs hold both cores, so that no two of
+# study (whole studies), papers (published tables, reduced). Tests that start MPI or several runs hold both cores, so that no two of
 # them compete: a time limit then means the same on every machine.
 
 file(GLOB law_tests CONFIGURE_DEPENDS bond_styles/laws/*_test.cpp fix_styles/*_test.cpp)
 file(GLOB_RECURSE unit_tests CONFIGURE_DEPENDS optimizer/*_test.cpp)
 file(GLOB engine_tests CONFIGURE_DEPENDS tests/engine/*.cpp)
 file(GLOB study_tests CONFIGURE_DEPENDS tests/study/*.cpp)
+file(GLOB papers_tests CONFIGURE_DEPENDS tests/papers/*.cpp)
 file(GLOB tool_tests CONFIGURE_DEPENDS tests/tools/*_test.sh)
 
 set(test_definitions
@@ -62,6 +63,12 @@ if(study_tests AND have_engine AND TARGET bondlab)
   add_tests(NAME study_tests LABEL study TIMEOUT 1200 SERIAL SOURCES ${study_tests}
     LIBRARIES bondlab_core)
   add_dependencies(study_tests lmp_bondlab bondlab)
+endif()
+
+if(papers_tests AND have_engine AND TARGET bondlab)
+  add_tests(NAME papers_tests LABEL papers TIMEOUT 1200 SERIAL SOURCES ${papers_tests}
+    LIBRARIES bondlab_core)
+  add_dependencies(papers_tests lmp_bondlab bondlab)
 endif()
 
 # Tests of the tools are shell scripts: exit status 0 means passed, output is shown on failure.

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Job: the sections of the study file that hold a published table: [[quantities]] (its columns),
+// [[cases]] (its rows), [compare].
+#include <cmath>
+
+#include "base/units.h"
+#include "study/study_sections.h"
+
+namespace bondlab {
+
+namespace {
+
+// "10 %" of the published value, or a quantity.
+void read_tolerance(TomlTable &table, const toml::table &entry, const std::string &si_unit,
+                    PublishedQuantity &quantity) {
+  const toml::node *node = entry.get("tolerance");
+  if (!node) {
+    table.errors().add(table.place(), "'tolerance' is missing in [[quantities]]; write tolerance = \"10 %\" of the published value, or a quantity");
+    return;
+  }
+  if (node->is_string()) {
+    table.text("tolerance");
+    try {
+      const Quantity given = split_quantity(node->as_string()->get());
+      quantity.relative = given.unit == "%";
+      quantity.tolerance = quantity.relative ? given.number / 100
+                                             : parse_difference(node->as_string()->get(), si_unit);
+    } catch (const UnitError &error) {
+      table.error("tolerance", error.text() + ", or a share such as \"10 %\"");
+      return;
+    }
+  } else {
+    quantity.relative = false;
+    quantity.tolerance = table.quantity("tolerance", si_unit).value_or(1);
+  }
+  if (!(quantity.tolerance > 0))
+    table.error("tolerance", "'tolerance' can't be " + shown(*node) + "; it must be above 0");
+}
+
+void read_quantities(TomlTable &top, Study &study) {
+  for (const toml::table *entry : top.tables("quantities")) {
+    TomlTable table(*entry, "[[quantities]]", top.file(), top.errors());
+    PublishedQuantity quantity;
+    quantity.place = table.place();
+    quantity.name = read_name(table, study.quantities);
+    quantity.test = table.text("test", true);
+    quantity.response = table.text("response", true);
+    const TestEntry *test = find_entry(study.tests, quantity.test);
+    if (!test && !quantity.test.empty())
+      table.error("test", unknown_name("there is no test", quantity.test, names_of(study.tests)));
+    std::string si_unit = "1";
+    if (test && !quantity.response.empty()) {
+      const auto response = test->definition.responses.find(quantity.response);
+      std::vector<std::string> known;
+      for (const auto &[name, definition] : test->definition.responses) known.push_back(name);
+      if (response != test->definition.responses.end())
+        si_unit = response->second.unit;
+      else if (!known.empty())
+        table.error("response", unknown_name("the test '" + test->test + "' has no response",
+                                             quantity.response, known));
+    }
+    quantity.unit = read_unit(table, false).value_or(si_unit);
+    if (!same_dimension(quantity.unit, si_unit)) {
+      table.error("unit", "the unit '" + quantity.unit + "' isn't one of the response; allowed here: " + join(allowed_units(si_unit)));
+      quantity.unit = si_unit;
+    }
+    read_tolerance(table, *entry, si_unit, quantity);
+    quantity.judged = table.choice("judged", {"yes", "no"}) == "yes";
+    table.finish();
+    study.quantities.push_back(quantity);
+  }
+}
+
+void read_set(TomlTable &table, const toml::table &given, const Study &study, PublishedCase &one) {
+  TomlTable set(given, "the set of case '" + one.name + "'", table.file(), table.errors());
+  std::vector<bool> seen(study.parameters.size(), false);
+  for (std::size_t i = 0; i < study.parameters.size(); ++i) {
+    const Parameter &parameter = study.parameters[i];
+    const std::optional<double> value = set.quantity(parameter.name, parameter.unit, true);
+    one.values.push_back(value.value_or(parameter.lower));
+  }
+  set.finish();
+}
+
+void read_expected(TomlTable &table, const toml::table &given, const Study &study,
+                   const char *key, std::map<std::string, double> &to) {
+  TomlTable values(given, std::string("'") + key + "'", table.file(), table.errors());
+  for (const PublishedQuantity &quantity : study.quantities)
+    if (const auto value = values.quantity(quantity.name, quantity.unit)) to[quantity.name] = *value;
+  values.finish();
+}
+
+}  // namespace
+
+void read_published(TomlTable &top, Study &study) {
+  read_quantities(top, study);
+  for (const toml::table *entry : top.tables("cases")) {
+    TomlTable table(*entry, "[[cases]]", top.file(), top.errors());
+    PublishedCase one;
+    one.place = table.place();
+    one.name = read_name(table, study.cases);
+    if (const toml::table *set = table.table("set", true)) read_set(table, *set, study, one);
+    const toml::table *expected = table.table("expect", true);
+    if (expected && !study.quantities.empty())
+      read_expected(table, *expected, study, "expect", one.expected);
+    if (const toml::table *sd = table.table("expect_sd"))
+      read_expected(table, *sd, study, "expect_sd", one.expected_sd);
+    one.source = table.text("source");
+    table.finish();
+    if (!study.quantities.empty() && one.expected.empty())
+      table.errors().add(table.place(), "the case '" + one.name + "' expects nothing; give at least one of: " + join(names_of(study.quantities)));
+    study.cases.push_back(one);
+  }
+  if (!study.cases.empty() && study.quantities.empty())
+    top.errors().add(study.cases.front().place, "[[cases]] need [[quantities]]: which responses the published table has");
+  if (const toml::table *compare = top.table("compare")) {
+    TomlTable table(*compare, "[compare]", top.file(), top.errors());
+    study.case_packings = static_cast<int>(table.whole("packings", study.case_packings, 1, 1000));
+    table.finish();
+  }
+}
+
+}  // namespace bondlab
