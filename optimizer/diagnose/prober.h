@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Job: the one interface of the diagnosis to a model: a batch of model points in, a batch of row
+//   vectors out.
+// Method: a model point is the fitted parameters in transformed space and the amplitude of every
+//   candidate effect, in units of the effect's switch-on size; amplitude 0 is a model without it.
+//   The rows are the same figures as are taken from the measured curves, by the same code. Base
+//   curves, Jacobian columns and traces of a whole catalogue are one batch, so that an expensive
+//   engine runs them side by side.
+// Units: rows as the prober defines them, z and amplitudes without. Failure: a point whose runs
+//   failed gives rows with NaN; what concerns the whole batch is thrown as by ForwardModel::run().
+#pragma once
+
+#include <Eigen/Dense>
+#include <cstddef>
+#include <vector>
+
+#include "diagnose/row_key.h"
+
+namespace bondlab {
+
+struct ModelPoint {
+  Eigen::VectorXd z;          // fitted parameters, transformed
+  Eigen::VectorXd amplitude;  // one an effect, in switch-on sizes
+};
+
+class Prober {
+ public:
+  virtual ~Prober() = default;
+  virtual std::size_t parameters() const = 0;
+  virtual std::size_t effects() const = 0;
+  virtual double parameter_step(std::size_t parameter) const = 0;  // in z, of the differences
+  virtual std::vector<Eigen::VectorXd> probe(const std::vector<ModelPoint> &batch) = 0;
+};
+
+}  // namespace bondlab
