@@ -8,7 +8,7 @@
 #include "diagnose/projection.h"
 #include "diagnose/score.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 namespace {
 
@@ -52,4 +52,4 @@ std::vector<Advice> advise(const Linearisation &model, const std::vector<bool> &
   return out;
 }
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

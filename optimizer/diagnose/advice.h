@@ -17,7 +17,7 @@
 
 #include "diagnose/refit.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 struct TestOption {
   std::string name;
@@ -37,4 +37,4 @@ std::vector<Advice> advise(const Linearisation &model, const std::vector<bool> &
                            const std::vector<std::size_t> &rivals,
                            const std::vector<double> &amplitudes);
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

@@ -6,7 +6,7 @@
 
 #include "base/random.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 namespace {
 
@@ -98,4 +98,4 @@ BenchRun Bench::run(const Wish &wish, const BenchTruth &truth, std::uint64_t num
   return out;
 }
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

@@ -16,7 +16,7 @@
 #include "diagnose/bench_laboratory.h"
 #include "diagnose/diagnose.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 struct BenchSetup {
   BenchLaboratory laboratory;
@@ -65,4 +65,4 @@ class Bench {
 // Series of some tests: "uc_mid_293K" or a kind of test; empty: all.
 std::vector<rheology::Series> bench_series(const std::vector<std::string> &names);
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

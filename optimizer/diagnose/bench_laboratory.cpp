@@ -8,7 +8,7 @@
 
 #include "base/random.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 namespace {
 
@@ -370,4 +370,4 @@ Evidence BenchLaboratory::measure(const BenchTruth &truth, std::uint64_t seed,
   return out;
 }
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

@@ -20,7 +20,7 @@
 #include "diagnose/whitening.h"
 #include "rheology/laboratory.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 struct BenchScatter {  // sd of what differs between specimens, and of the sensors
   double stiffness = 0.03, strength = 0.05, post = 0.08;
@@ -79,4 +79,4 @@ class BenchLaboratory : public Prober {
   std::vector<rheology::Specimen> packings_;  // one a series
 };
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

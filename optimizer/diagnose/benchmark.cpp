@@ -13,7 +13,7 @@
 #include "diagnose/advice.h"
 #include "diagnose/comparators.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 namespace {
 
@@ -449,4 +449,4 @@ std::string benchmark_table(int n) {
   return out;
 }
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

@@ -16,7 +16,7 @@
 
 #include "diagnose/bench_case.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 struct Rate {
   int hits = 0, cases = 0;
@@ -92,4 +92,4 @@ const std::vector<std::vector<std::string>> &poor_laboratories();
 
 std::string benchmark_table(int scale);
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace bondlab {
+namespace bondlab::diagnose {
 namespace {
 
 constexpr double lambda = 10;  // noise units: the smallest size that the goals speak of
@@ -90,4 +90,4 @@ TEST(DiagnosisBenchmark, AdvisedTestSeparatesTheRivals) {
 }
 
 }  // namespace
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

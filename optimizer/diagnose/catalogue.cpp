@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/catalogue.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 std::string to_string(EffectKind kind) {
   switch (kind) {
@@ -17,4 +17,4 @@ std::string to_string(EffectKind kind) {
   return "";
 }
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

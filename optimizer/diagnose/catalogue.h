@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 enum class EffectKind { bond, specimen, machine, conversion };
 std::string to_string(EffectKind kind);
@@ -26,4 +26,4 @@ struct EffectEntry {
   std::string separating_test;             // in words
 };
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 Naming name_by_largest_residual(const Omnibus &omnibus, const Omnibus::Prepared &prepared,
                                 const ScoreTable &scores, const Eigen::VectorXd &residual,
@@ -68,4 +68,4 @@ Naming name_by_lasso(const ScoreTable &scores, const std::vector<EffectEntry> &c
   return out;
 }
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

@@ -16,7 +16,7 @@
 #include "diagnose/omnibus.h"
 #include "diagnose/score.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 // Names of effects, best first; empty: nothing missing.
 using Naming = std::vector<std::size_t>;
@@ -28,4 +28,4 @@ Naming name_by_bic(const ScoreTable &scores, const Eigen::VectorXd &residual);
 Naming name_by_lasso(const ScoreTable &scores, const std::vector<EffectEntry> &catalogue,
                      const Eigen::VectorXd &residual);
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

@@ -9,7 +9,7 @@
 #include "base/random.h"
 #include "base/user_error.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 namespace {
 
@@ -294,4 +294,4 @@ Diagnosis diagnose(Prober &prober, const Evidence &evidence, const DiagnosisSetu
   return Work(prober, evidence, setup, options).run(start);
 }
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

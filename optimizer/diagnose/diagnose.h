@@ -24,7 +24,7 @@
 #include "diagnose/null_table.h"
 #include "diagnose/score.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 enum class Verdict { one, set, two, not_in_catalogue, nothing };
 std::string to_string(Verdict verdict);
@@ -81,4 +81,4 @@ Linearisation fit_base(Prober &prober, const Whitening &whitening,
                        const std::vector<EffectEntry> &catalogue, const ModelPoint &start,
                        Refit &base);
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

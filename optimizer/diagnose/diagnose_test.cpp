@@ -10,7 +10,7 @@
 
 #include "diagnose/bench_case.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 namespace {
 
 // One test of shear cannot tell friction after break from rolling resistance: at one normal stress
@@ -121,4 +121,4 @@ TEST(Diagnose, EffectWhoseRunsFailIsDeadAndTheRestGoesOn) {
 }
 
 }  // namespace
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

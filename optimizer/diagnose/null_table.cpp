@@ -7,7 +7,7 @@
 #include "base/random.h"
 #include "diagnose/score.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 namespace {
 
@@ -65,4 +65,4 @@ NullTable make_null_table(const Omnibus &omnibus, const Linearisation &model,
   return table;
 }
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

@@ -20,7 +20,7 @@
 #include "diagnose/omnibus.h"
 #include "diagnose/refit.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 struct NullTable {
   std::vector<double> omnibus, trace;  // sorted
@@ -36,4 +36,4 @@ NullTable make_null_table(const Omnibus &omnibus, const Linearisation &model,
                           const std::vector<EffectEntry> &catalogue, const Evidence &evidence,
                           const NoiseEstimate &noise, double rate, int draws, std::uint64_t seed);
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 namespace {
 
@@ -189,4 +189,4 @@ OmnibusScore Omnibus::Prepared::largest(const Eigen::VectorXd &residual) const {
   return best;
 }
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

@@ -23,7 +23,7 @@
 #include "diagnose/projection.h"
 #include "diagnose/whitening.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 struct Block {
   std::string name;  // "uc_slow_293K, peak", "brazilian", "whole"
@@ -70,4 +70,4 @@ class Omnibus {
   Eigen::MatrixXd directions_;
 };
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

@@ -17,7 +17,7 @@
 
 #include "diagnose/row_key.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 struct ModelPoint {
   Eigen::VectorXd z;          // fitted parameters, transformed
@@ -33,4 +33,4 @@ class Prober {
   virtual std::vector<Eigen::VectorXd> probe(const std::vector<ModelPoint> &batch) = 0;
 };
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

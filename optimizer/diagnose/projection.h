@@ -8,7 +8,7 @@
 
 #include <Eigen/Dense>
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 class Projection {
  public:
@@ -32,4 +32,4 @@ class Projection {
   Eigen::MatrixXd basis_;
 };
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

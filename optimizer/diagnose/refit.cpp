@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 namespace {
 
@@ -189,4 +189,4 @@ Refit refit(Prober &prober, const Whitening &whitening, const std::vector<Effect
   return result;
 }
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

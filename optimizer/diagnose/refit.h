@@ -19,7 +19,7 @@
 #include "diagnose/prober.h"
 #include "diagnose/whitening.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 struct Linearisation {
   ModelPoint point;
@@ -51,4 +51,4 @@ Refit refit(Prober &prober, const Whitening &whitening, const std::vector<Effect
             const Linearisation &start, const std::vector<std::size_t> &effects,
             const Eigen::VectorXd &on = Eigen::VectorXd());
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

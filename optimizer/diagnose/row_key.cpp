@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/row_key.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 std::string to_string(CurvePart part) {
   static const std::string names[curve_part_count] = {"toe",       "slope", "pre-peak", "peak",
@@ -9,4 +9,4 @@ std::string to_string(CurvePart part) {
   return names[static_cast<int>(part)];
 }
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 enum class CurvePart { toe, slope, pre_peak, peak, post_peak, hold, unload, scatter };
 constexpr int curve_part_count = 8;
@@ -23,4 +23,4 @@ struct RowKey {
   std::string quantity;  // "log stress", "strain at 0.2 of the peak"
 };
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

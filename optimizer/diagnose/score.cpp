@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 namespace {
 
@@ -98,4 +98,4 @@ double confusion_chance(double cosine, double lambda) {
   return 0.5 * std::erfc(-z / std::sqrt(2.0));
 }
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

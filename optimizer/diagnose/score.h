@@ -22,7 +22,7 @@
 #include "diagnose/projection.h"
 #include "diagnose/refit.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 constexpr double margin_needed = 6.63;  // chi squared, one degree of freedom, 1 %
 
@@ -63,4 +63,4 @@ class ScoreTable {
 // Chance that the rival's chi squared is within margin_needed of the right effect's.
 double confusion_chance(double cosine, double lambda);
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

@@ -9,7 +9,7 @@
 #include "diagnose/advice.h"
 #include "diagnose/omnibus.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 namespace {
 
 constexpr int rows = 40;
@@ -170,4 +170,4 @@ TEST(Omnibus, ScoresAreStandardNormalAndADriftIsFoundWhereItIs) {
 }
 
 }  // namespace
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

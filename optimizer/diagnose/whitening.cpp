@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 namespace {
 
@@ -91,4 +91,4 @@ Eigen::VectorXd Whitening::residual(const Eigen::VectorXd &simulated) const {
   return apply(measured_ - simulated);
 }
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

@@ -28,7 +28,7 @@
 
 #include "diagnose/row_key.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 
 struct SeriesEvidence {
   std::string name, test;
@@ -84,4 +84,4 @@ class Whitening {
   std::vector<Block> blocks_;
 };
 
-}  // namespace bondlab
+}  // namespace bondlab::diagnose

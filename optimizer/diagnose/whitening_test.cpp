@@ -7,7 +7,7 @@
 
 #include "base/random.h"
 
-namespace bondlab {
+namespace bondlab::diagnose {
 namespace {
 
 constexpr int count = 5;
@@ -106,4 +106,4 @@ TEST(Whitening, ScatterRowIsOneWhenReplicatesScatterAsStated) {
 }
 
 }  // namespace
-}  // namespace bondlab
+}  // namespace bondlab::diagnose
