@@ -4,8 +4,8 @@
 // Method: one function a question; each says what it counts. Everything is seeded, so that the
 //   counts are the same on every run; the limits of a rate are Clopper & Pearson's (exact
 //   binomial).
-// What is judged where: the test beside this file holds the counts against the goals; `bondlab
-//   diagnose --benchmark N` prints the table for as many cases as wanted.
+// What is judged where: the test beside this file holds the counts against the goals;
+//   benchmark_table() gives the whole table as text, for as many cases as wanted.
 // Units: shares. Failure: none. Limits: the closed-form laboratory is one of many; its traces are
 //   simpler than the engine's, whose own benchmark is counted apart.
 #pragma once

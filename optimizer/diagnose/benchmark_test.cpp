@@ -2,8 +2,7 @@
 //
 // Holds the diagnosis on the closed-form laboratory against its goals. Everything is seeded: the
 // counts are the same on every run. Each goal stands as it was set; where a count could pass by
-// luck, the goal is held against the rate of enough cases (`bondlab diagnose --benchmark` runs
-// more).
+// luck, the goal is held against the rate of enough cases (benchmark_table() counts more).
 #include "diagnose/benchmark.h"
 
 #include <gtest/gtest.h>

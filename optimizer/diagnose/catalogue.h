@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // Job: what the diagnosis knows about a candidate effect besides its trace.
-// Method: plain data; inputs/effects/ holds one file an effect, see effects.md there.
+// Method: plain data; inputs/effects/ holds one file an effect, see README.md there.
 // Units: sizes in the effect's own unit, SI. Failure: none.
 #pragma once
 
