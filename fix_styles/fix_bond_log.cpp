@@ -17,13 +17,17 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 using bondlab::number_text;
 
+namespace {
+const char *const kModes[] = {"tension", "shear", "crushing"};  // by BreakEvent::mode
+}
+
 FixBondLog::FixBondLog(LAMMPS *lmp, int narg, char **arg)
     : Fix(lmp, narg, arg),
       table_(lmp, this, "bondlab-broken-bonds 1"),
       particles_(NULL),
-      gathered_{0, 0} {
+      gathered_{0, 0, 0} {
   vector_flag = 1;
-  size_vector = 3;
+  size_vector = 4;
   global_freq = 1;
   extvector = 0;
   restart_global = 1;
@@ -80,29 +84,29 @@ void FixBondLog::gather() {
     return std::tie(a.step, a.tag_lo, a.tag_hi) < std::tie(b.step, b.tag_lo, b.tag_hi);
   });
   for (const BreakEvent &e : events) {
-    gathered_[e.mode ? 1 : 0]++;
+    gathered_[e.mode]++;
     table_.row(e.step, {number_text(table_.time_at(e.step)), std::to_string(e.tag_lo),
                         std::to_string(e.tag_hi), std::to_string(e.type), number_text(e.x[0]),
-                        number_text(e.x[1]), number_text(e.x[2]), e.mode ? "shear" : "tension",
+                        number_text(e.x[1]), number_text(e.x[2]), kModes[e.mode],
                         number_text(e.sigma), number_text(e.tau), number_text(e.sigma_c),
                         number_text(e.tau_c)});
   }
 }
 
 double FixBondLog::compute_vector(int n) {
-  double count[2] = {0, 0};
+  double count[3] = {0, 0, 0};
   if (particles_)
-    for (const BreakEvent &e : particles_->breaks) count[e.mode ? 1 : 0] += 1.0;
-  MPI_Allreduce(MPI_IN_PLACE, count, 2, MPI_DOUBLE, MPI_SUM, world);
-  for (int k = 0; k < 2; k++) count[k] += static_cast<double>(gathered_[k]);
-  return n == 0 ? count[0] + count[1] : count[n - 1];
+    for (const BreakEvent &e : particles_->breaks) count[e.mode] += 1.0;
+  MPI_Allreduce(MPI_IN_PLACE, count, 3, MPI_DOUBLE, MPI_SUM, world);
+  for (int k = 0; k < 3; k++) count[k] += static_cast<double>(gathered_[k]);
+  return n == 0 ? count[0] + count[1] + count[2] : count[n - 1];
 }
 
 void FixBondLog::reset_timestep(bigint to, bigint from) { table_.clock.renumber(to, from); }
 
 namespace {
 struct LogState {
-  bigint gathered[2];
+  bigint gathered[3];
   bondlab::StepClock clock;
 };
 }  // namespace
@@ -111,7 +115,7 @@ struct LogState {
 void FixBondLog::write_restart(FILE *fp) {
   if (table_.is_open()) gather();
   if (comm->me != 0) return;
-  const LogState state = {{gathered_[0], gathered_[1]}, table_.clock};
+  const LogState state = {{gathered_[0], gathered_[1], gathered_[2]}, table_.clock};
   const int size = sizeof state;
   fwrite(&size, sizeof size, 1, fp);
   fwrite(&state, sizeof state, 1, fp);
@@ -120,6 +124,6 @@ void FixBondLog::write_restart(FILE *fp) {
 void FixBondLog::restart(char *buf) {
   LogState state;
   std::memcpy(&state, buf, sizeof state);
-  std::copy(state.gathered, state.gathered + 2, gathered_);
+  std::copy(state.gathered, state.gathered + 3, gathered_);
   table_.clock = state.clock;
 }

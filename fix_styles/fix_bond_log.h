@@ -40,7 +40,7 @@ class FixBondLog : public Fix {
  private:
   FixTable table_;
   class AtomVecBondedSphere *particles_;
-  bigint gathered_[2];  // breaks gathered so far in tension, shear; on all ranks
+  bigint gathered_[3];  // breaks gathered so far in tension, shear, crushing; on all ranks
   void gather();
 };
 

@@ -220,7 +220,7 @@ void BondBPM::note_break(Block &b, int lane) {
   const double share = b.ri[lane] / (b.ri[lane] + b.rj[lane]);
   const double *p = atom->x[t.at_lo[row]], *q = atom->x[t.at_hi[row]];
   for (int d = 0; d < 3; d++) event.x[d] = p[d] + share * (q[d] - p[d]);
-  event.mode = b.report.fate[lane] == static_cast<double>(BondFate::broken_in_shear);
+  event.mode = static_cast<int>(b.report.fate[lane]) - static_cast<int>(BondFate::broken_in_tension);
   event.sigma = b.report.sigma[lane];
   event.tau = b.report.tau[lane];
   strengths(row, event.sigma_c, event.tau_c);

@@ -13,7 +13,7 @@ struct BreakEvent {
   bigint step;
   int tag_lo, tag_hi, type;
   double x[3];                        // contact point, m
-  int mode;                           // 0 tension, 1 shear
+  int mode;                           // 0 tension, 1 shear, 2 crushing
   double sigma, tau, sigma_c, tau_c;  // Pa
 };
 

@@ -29,6 +29,7 @@ struct Preamble {
   std::string specimen;            // data file
   std::string install;             // arguments of bond_install
   std::string contact = "5e9 2.0 0.5";
+  std::string bond_style = "parallel";
   std::string bond = "5e9 2.0 1e12 1e12";
   std::string newton = "off";
   std::string boundary;            // "" : f f f, in 2D f f p
@@ -42,8 +43,8 @@ struct Preamble {
     std::ostringstream o;
     o << "units si\ndimension " << dimension << "\nnewton " << newton << "\nboundary "
       << (boundary.empty() ? (dimension == 2 ? "f f p" : "f f f") : boundary) << "\natom_style "
-      << atom_style << "\ncommunicate single vel yes\nbond_style parallel\npair_style grain\n"
-      << "read_data " << specimen << "\nneighbor " << skin << " bin\nneigh_modify " << neighbour
+      << atom_style << "\ncommunicate single vel yes\nbond_style " << bond_style
+      << "\npair_style grain\nread_data " << specimen << "\nneighbor " << skin << " bin\nneigh_modify " << neighbour
       << "\npair_coeff * * " << contact << "\nbond_coeff 1 " << bond << "\n"
       << before_bonds;
     if (!install.empty()) o << "bond_install all " << install << "\n";
