@@ -114,9 +114,8 @@ inline double log_lane(double x) {
 // log(1 + y)/y, y > -1, 1 at y = 0.
 inline double log1p_ratio(double y) {
   const LogParts p = log_parts(1.0 + y);
-  const bool near = p.exponent == 0.0;  // the sum's rounding would show: take y itself
-  const double above = near ? y : p.mantissa - 1.0;
-  const double f = above / (2.0 + above);
+  const bool near = p.exponent == 0.0;  // log(1 + y) = 2 atanh(f), f = y/(2 + y): no digits of y lost
+  const double f = (p.mantissa - 1.0) / (p.mantissa + 1.0);
   const double series = atanh_ratio(f * f);
   const double far = (p.exponent * kLn2 + 2.0 * f * series) / (near ? 1.0 : y);
   const double value = near ? 2.0 * series / (2.0 + y) : far;

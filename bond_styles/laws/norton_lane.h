@@ -123,7 +123,7 @@ template <bool advance, bool options>
         half_volume * (opening + tau_now * tau_now * per_shear) +
         half_length * (in.bend2 * (r.keep_b * r.keep_b) * per_modulus * at.per_bend +
                        in.twist2 * (r.keep_t * r.keep_t) * per_shear * at.per_twist);
-    r.lost = r.hold * (before - share) * scaled;
+    r.lost = in.alive * softening_loss(in.worst, r.worst, in.failure, scaled);
   }
   return r;
 }

@@ -117,7 +117,7 @@ TEST(NortonStep, any_time_is_stable) {
 TEST(NortonStep, relaxation_is_monotone) {
   for (const double m : {0.5, 1.0, 3.0, 6.5}) {
     double before = 0.0;
-    for (double log_a = -300.0; log_a < 100.0; log_a += 0.01) {
+    for (double log_a = -300.0; log_a < 3000.0; log_a += 0.05) {
       const double lost = single_creep(1e12, 1e9, log_a, m - 1.0);
       ASSERT_GE(lost, before * (1 - 1e-14));
       before = lost;
