@@ -69,10 +69,16 @@ class DriveProgram {
   static constexpr std::size_t most_events = 52;  // bits of a double
 
   bool needs_load() const {
-    return std::any_of(events.begin(), events.end(), [](const DriveEvent &e) {
-      return e.trigger == DriveEvent::Trigger::load || e.action == DriveEvent::Action::keep ||
-             e.action == DriveEvent::Action::unload;
-    });
+    return std::any_of(events.begin(), events.end(), looks_at_load);
+  }
+  // As long as an event that looks at the load is ahead or under way: finding it costs a sum.
+  bool needs_load(const DriveState &s) const {
+    const auto begun = static_cast<std::uint64_t>(s.begun);
+    for (std::size_t k = 0; k < events.size(); ++k)
+      if (looks_at_load(events[k]) &&
+          (!(begun >> k & 1) || (s.phase != DriveState::cruising && s.current == double(k))))
+        return true;
+    return false;
   }
 
   void start(DriveState &s) const {
@@ -95,6 +101,11 @@ class DriveProgram {
   }
 
  private:
+  static bool looks_at_load(const DriveEvent &e) {
+    return e.trigger == DriveEvent::Trigger::load || e.action == DriveEvent::Action::keep ||
+           e.action == DriveEvent::Action::unload;
+  }
+
   const DriveEvent &current(const DriveState &s) const {
     return events[static_cast<std::size_t>(s.current)];
   }

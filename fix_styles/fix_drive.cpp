@@ -117,7 +117,7 @@ void FixDrive::setup(int) {
 
 void FixDrive::initial_integrate(int) {
   double load = 0.0;
-  if (load_ && program_.needs_load()) {
+  if (load_ && program_.needs_load(state_)) {
     modify->clearstep_compute();
     load = load_->evaluate();
     modify->addstep_compute(update->ntimestep + 1);

@@ -34,4 +34,10 @@ double platen_imbalance(const Curve &curve, const ResponseContext &) {
                             window);
 }
 
+double kinetic_share(const Curve &curve, const ResponseContext &) {
+  require_monotonic_time(curve);
+  const auto load = mean_force(curve);
+  return bondlab::kinetic_share(curve, loading_window(load, find_peak(load)));
+}
+
 }  // namespace bondlab::brazilian

@@ -18,5 +18,7 @@ double tensile_strength(const Curve &curve, const ResponseContext &context);  //
 /// Quality: largest difference of the platens' forces between 40 and 60 % of the peak, as a share
 /// of their mean.
 double platen_imbalance(const Curve &curve, const ResponseContext &context);
+/// Quality: largest kinetic over strain energy there.
+double kinetic_share(const Curve &curve, const ResponseContext &context);
 
 }  // namespace bondlab::brazilian

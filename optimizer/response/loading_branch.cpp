@@ -117,4 +117,22 @@ double relative_imbalance(const std::vector<double> &a, const std::vector<double
   return mean > 0 ? worst / mean : 0.0;
 }
 
+double kinetic_share(const Curve &curve, SampleWindow window) {
+  const auto &kinetic = finite_column(curve, "kinetic_energy");
+  const auto &strain = finite_column(curve, "strain_energy");
+  double worst = 0;
+  for (std::size_t i = window.first; i < window.last; ++i) {
+    if (!(strain[i] > 0))
+      throw ResponseError(ResponseCause::implausible,
+                          fmt::format("the strain energy at sample {} is {:g} J", i + 1, strain[i]));
+    worst = std::max(worst, kinetic[i] / strain[i]);
+  }
+  return worst;
+}
+
+SampleWindow last_part(SampleWindow window, double share) {
+  const auto kept = static_cast<std::size_t>(share * static_cast<double>(window.size()));
+  return {window.last - std::min(kept, window.size()), window.last};
+}
+
 }  // namespace bondlab

@@ -58,4 +58,11 @@ LineFit fit_line(const std::vector<double> &x, const std::vector<double> &y, Sam
 double relative_imbalance(const std::vector<double> &a, const std::vector<double> &b,
                           SampleWindow window);
 
+/// Largest kinetic over strain energy (columns kinetic_energy, strain_energy, J) in the window: how
+/// far a test is from quasi-static (below 1e-3 is good practice).
+double kinetic_share(const Curve &curve, SampleWindow window);
+
+/// Share of the samples' range as a window behind `first`: the last `share` of [first, last).
+SampleWindow last_part(SampleWindow window, double share);
+
 }  // namespace bondlab

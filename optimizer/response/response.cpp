@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "response/brazilian.h"
+#include "response/programme.h"
 #include "response/uniaxial.h"
 
 namespace bondlab {
@@ -16,13 +17,19 @@ using Function = double (*)(const Curve &, const ResponseContext &);
 
 const std::map<std::string, Function> &registry() {
   static const std::map<std::string, Function> functions = {
+      {"brazilian.kinetic_share", brazilian::kinetic_share},
       {"brazilian.platen_imbalance", brazilian::platen_imbalance},
       {"brazilian.tensile_strength", brazilian::tensile_strength},
+      {"programme.creep_rate", programme::creep_rate},
+      {"programme.relaxed_share", programme::relaxed_share},
+      {"programme.unloading_modulus", programme::unloading_modulus},
+      {"uniaxial.kinetic_share", uniaxial::kinetic_share},
       {"uniaxial.peak_strain", uniaxial::peak_strain},
       {"uniaxial.peak_stress", uniaxial::peak_stress},
       {"uniaxial.platen_imbalance", uniaxial::platen_imbalance},
       {"uniaxial.poisson_gauge", uniaxial::poisson_gauge},
       {"uniaxial.tangent_modulus_gauge", uniaxial::tangent_modulus_gauge},
+      {"uniaxial.tangent_modulus_machine", uniaxial::tangent_modulus_machine},
       {"uniaxial.tangent_modulus_platen", uniaxial::tangent_modulus_platen},
   };
   return functions;
@@ -31,9 +38,11 @@ const std::map<std::string, Function> &registry() {
 /// The functions that judge a run instead of measuring the material, by family.
 const std::multimap<std::string, std::string> &quality_registry() {
   static const std::multimap<std::string, std::string> functions = {
+      {"uniaxial", "kinetic_share"},
       {"uniaxial", "platen_imbalance"},
       {"uniaxial", "tangent_modulus_platen"},
       {"uniaxial", "peak_strain"},
+      {"brazilian", "kinetic_share"},
       {"brazilian", "platen_imbalance"},
   };
   return functions;

@@ -102,6 +102,32 @@ TEST(Uniaxial, ModulusUnderNoiseIsWithinItsStandardError) {
   EXPECT_LE(inside, 199);
 }
 
+TEST(Uniaxial, MachineModulusIsThatOfTheMachinesStrain) {
+  Curve curve = compression_curve();
+  curve.names.push_back("strain_machine");
+  curve.columns.push_back(curve.column("strain_axial"));
+  for (double &strain : curve.columns.back()) strain *= 1.6;
+  EXPECT_NEAR(evaluate("uniaxial.tangent_modulus_machine", curve, {}), modulus / 1.6,
+              1e-9 * modulus);
+}
+
+TEST(Uniaxial, KineticShareIsTheLargestInTheWindow) {
+  Curve curve = compression_curve();
+  curve.names.push_back("kinetic_energy");
+  curve.names.push_back("strain_energy");
+  std::vector<double> kinetic(samples, 1e-3), strain(samples, 1.0);
+  kinetic[10] = 5;     // before the window
+  kinetic[150] = 0.02;  // half of the peak: in it
+  kinetic[290] = 7;     // beyond
+  curve.columns.push_back(kinetic);
+  curve.columns.push_back(strain);
+  EXPECT_DOUBLE_EQ(evaluate("uniaxial.kinetic_share", curve, {}), 0.02);
+  EXPECT_DOUBLE_EQ(evaluate("brazilian.kinetic_share", curve, {}), 0.02);
+  EXPECT_EQ(quality_figures("uniaxial.peak_stress", curve, {}).at("kinetic_share"), 0.02);
+  column(curve, "strain_energy")[150] = 0;
+  EXPECT_EQ(cause_of("uniaxial.kinetic_share", curve), ResponseCause::implausible);
+}
+
 TEST(Uniaxial, TestThatStoppedBeforeThePeakGivesNoNumber) {
   Curve curve = compression_curve();
   for (auto &values : curve.columns) values.resize(295);  // the peak is sample 300

@@ -52,6 +52,10 @@ double tangent_modulus_platen(const Curve &curve, const ResponseContext &) {
   return tangent_modulus(curve, "strain_platen");
 }
 
+double tangent_modulus_machine(const Curve &curve, const ResponseContext &) {
+  return tangent_modulus(curve, "strain_machine");
+}
+
 double poisson_gauge(const Curve &curve, const ResponseContext &) {
   const auto branch = loading_branch(curve);
   const auto &axial = finite_column(curve, "strain_axial");
@@ -64,6 +68,11 @@ double platen_imbalance(const Curve &curve, const ResponseContext &) {
   const auto &top = finite_column(curve, "force_top");
   const auto &bottom = finite_column(curve, "force_bottom");
   return relative_imbalance(top, bottom, loading_window(branch.stress, branch.peak));
+}
+
+double kinetic_share(const Curve &curve, const ResponseContext &) {
+  const auto branch = loading_branch(curve);
+  return bondlab::kinetic_share(curve, loading_window(branch.stress, branch.peak));
 }
 
 }  // namespace bondlab::uniaxial

@@ -8,7 +8,8 @@
 //   instead of a two-point secant because the stress of a discrete specimen carries the noise of
 //   single cracks and platen waves. Stress is engineering stress (force over the first area).
 // Columns read: time, axial_stress (Pa, compression +), strain_axial (gauge, compression +),
-//   strain_lateral (expansion +), strain_platen, force_top and force_bottom (N, quality only).
+//   strain_lateral (expansion +), strain_platen, strain_machine (with the frame's compliance);
+//   force_top and force_bottom (N), kinetic_energy and strain_energy (J) for quality only.
 // Units: SI. Failure: ResponseError, see response.h.
 // Limits: nu is a plane value in 2D (it may pass 0.5); the window assumes that the loading branch
 //   is nearly straight there, which cracking before 60 % of the peak would spoil.
@@ -23,9 +24,13 @@ double peak_strain(const Curve &curve,
                    const ResponseContext &context);  ///< gauge axial strain at the peak
 double tangent_modulus_gauge(const Curve &curve, const ResponseContext &context);   ///< Pa
 double tangent_modulus_platen(const Curve &curve, const ResponseContext &context);  ///< Pa
+double tangent_modulus_machine(const Curve &curve,
+                               const ResponseContext &context);  ///< by the machine's drive, Pa
 double poisson_gauge(const Curve &curve, const ResponseContext &context);
 /// Quality: largest difference of the two platens' forces in the regression window, as a share of
 /// their mean.
 double platen_imbalance(const Curve &curve, const ResponseContext &context);
+/// Quality: largest kinetic over strain energy in the regression window.
+double kinetic_share(const Curve &curve, const ResponseContext &context);
 
 }  // namespace bondlab::uniaxial

@@ -13,24 +13,11 @@
 #include <fstream>
 #include <sstream>
 
-#include "engine_run.h"
+#include "deck_tools.h"
 
 namespace {
 
-const std::string kInputs = std::string(BONDLAB_SOURCE_DIR) + "/inputs/";
-
-std::string deck(const std::string &test) {
-  std::ifstream in(kInputs + test + "/in." + test);
-  std::stringstream all;
-  all << in.rdbuf();
-  return all.str();
-}
-
-std::vector<std::string> with_specimen(const std::string &name, std::vector<std::string> more = {}) {
-  std::vector<std::string> arguments{"-var", "specimen", kInputs + "specimens/" + name};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
-}
+using namespace engine::decks;
 
 const std::vector<std::string> kCylinder{"-var", "dim", "3", "-var", "diameter", "0.010", "-var",
                                          "height", "0.020", "-var", "sigma_c", "20e6", "-var",
@@ -38,31 +25,6 @@ const std::vector<std::string> kCylinder{"-var", "dim", "3", "-var", "diameter",
 const std::vector<std::string> kShortCylinder{
     "-var", "dim", "3", "-var", "diameter", "0.010", "-var", "thickness", "0.005",
     "-var", "sigma_c", "20e6", "-var", "gap", "2e-5", "-var", "platen_speed", "0.2"};
-
-// Slope of y over x where x lies between two shares of its value at the peak of y.
-double slope(const std::vector<double> &x, const std::vector<double> &y, double from, double to) {
-  const auto peak = std::max_element(y.begin(), y.end());
-  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
-  for (std::size_t k = 0; y.begin() + k < peak; ++k) {
-    if (y[k] < from * *peak || y[k] > to * *peak) continue;
-    n += 1, sx += x[k], sy += y[k], sxx += x[k] * x[k], sxy += x[k] * y[k];
-  }
-  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
-}
-
-void expect_same_on_ranks(const std::string &test, const std::vector<std::string> &arguments) {
-  engine::EngineFolder one;
-  const auto first = engine::run_deck(one, deck(test), 1, arguments, 120);
-  ASSERT_TRUE(first.ok()) << first.screen;
-  EXPECT_GT(engine::read_table(one.file("broken_bonds.tsv")).rows.size(), 10u);
-  for (const int ranks : {2, 4}) {
-    engine::EngineFolder more;
-    const auto run = engine::run_deck(more, deck(test), ranks, arguments, 240);
-    ASSERT_TRUE(run.ok()) << run.screen;
-    for (const char *file : {"curve.tsv", "broken_bonds.tsv", "particles_end.txt"})
-      EXPECT_EQ(one.read(file), more.read(file)) << file << " on " << ranks << " ranks";
-  }
-}
 
 TEST(UniaxialDeck, is_the_same_on_1_2_and_4_ranks_in_2d) {
   expect_same_on_ranks("uniaxial_compression", with_specimen("rectangle_small_2d.data"));

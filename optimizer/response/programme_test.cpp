@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "response/programme.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace bondlab {
+namespace {
+
+// Loading with modulus 10 GPa, a hold in which stress relaxes to 80 %, a kept load that creeps at 2
+// 1/s after a transient, an unloading with 15 GPa.
+Curve programme_curve() {
+  Curve curve;
+  curve.names = {"time", "phase", "axial_stress", "strain_axial"};
+  curve.columns.resize(4);
+  double time = 0, stress = 0, strain = 0;
+  const auto add = [&](double phase) {
+    time += 1e-5;
+    const double row[] = {time, phase, stress, strain};
+    for (std::size_t c = 0; c < 4; ++c) curve.columns[c].push_back(row[c]);
+  };
+  for (int i = 0; i < 100; ++i) strain += 1e-5, stress += 1e5, add(0);
+  for (int i = 0; i <= 50; ++i) stress = 1e7 * (1 - 0.2 * i / 50.0), add(2);
+  for (int i = 0; i < 90; ++i) strain += 2e-5 + 1e-5 * std::exp(-i / 3.0), add(3);
+  for (int i = 0; i < 60; ++i) strain -= 6e-6, stress -= 15e9 * 6e-6, add(4);
+  for (int i = 0; i < 60; ++i) strain += 1e-5, stress += 1e5, add(0);
+  curve.complete = true;
+  return curve;
+}
+
+ResponseCause cause_of(const std::string &function, const Curve &curve) {
+  try {
+    evaluate(function, curve, {});
+  } catch (const ResponseError &error) {
+    return error.cause();
+  }
+  ADD_FAILURE() << function << " gave a number";
+  return ResponseCause::unknown_function;
+}
+
+TEST(Programme, EachPhaseGivesItsQuantity) {
+  const Curve curve = programme_curve();
+  EXPECT_NEAR(evaluate("programme.unloading_modulus", curve, {}), 15e9, 1.0);
+  EXPECT_NEAR(evaluate("programme.relaxed_share", curve, {}), 0.2, 1e-12);
+  // 2e-5 a sample of 1e-5 s; the transient has died out by exp(-20)
+  EXPECT_NEAR(evaluate("programme.creep_rate", curve, {}), 2.0, 1e-6);
+}
+
+TEST(Programme, APhaseThatNeverCameGivesNoNumber) {
+  Curve curve = programme_curve();
+  for (double &phase : curve.columns[1]) phase = 0;
+  for (const char *function :
+       {"programme.unloading_modulus", "programme.relaxed_share", "programme.creep_rate"})
+    EXPECT_EQ(cause_of(function, curve), ResponseCause::test_not_finished) << function;
+}
+
+TEST(Programme, TooFewSamplesAreRefused) {
+  Curve curve = programme_curve();
+  for (auto &column : curve.columns) {
+    std::vector<double> every;
+    for (std::size_t i = 0; i < column.size(); i += 8) every.push_back(column[i]);
+    column = every;
+  }
+  EXPECT_EQ(cause_of("programme.unloading_modulus", curve), ResponseCause::window_too_small);
+  EXPECT_EQ(cause_of("programme.creep_rate", curve), ResponseCause::window_too_small);
+}
+
+}  // namespace
+}  // namespace bondlab
