@@ -5,8 +5,12 @@
 
 #include <cmath>
 
+#include "response/bending.h"
 #include "response/brazilian.h"
+#include "response/cantilever.h"
+#include "response/impact.h"
 #include "response/programme.h"
+#include "response/shear.h"
 #include "response/uniaxial.h"
 
 namespace bondlab {
@@ -17,12 +21,35 @@ using Function = double (*)(const Curve &, const ResponseContext &);
 
 const std::map<std::string, Function> &registry() {
   static const std::map<std::string, Function> functions = {
+      {"bending.flexural_modulus", bending::flexural_modulus},
+      {"bending.flexural_modulus_slender", bending::flexural_modulus_slender},
+      {"bending.flexural_strength", bending::flexural_strength},
+      {"bending.kinetic_share", bending::kinetic_share},
+      {"bending.platen_imbalance", bending::platen_imbalance},
+      {"bending.toughness", bending::toughness},
       {"brazilian.kinetic_share", brazilian::kinetic_share},
       {"brazilian.platen_imbalance", brazilian::platen_imbalance},
       {"brazilian.tensile_strength", brazilian::tensile_strength},
+      {"cantilever.compliance", cantilever::compliance},
+      {"cantilever.kinetic_share", cantilever::kinetic_share},
+      {"cantilever.modulus", cantilever::modulus},
+      {"cantilever.modulus_slender", cantilever::modulus_slender},
+      {"cantilever.platen_imbalance", cantilever::platen_imbalance},
+      {"cantilever.strength", cantilever::strength},
+      {"impact.absorbed_energy", impact::absorbed_energy},
+      {"impact.broken_share", impact::broken_share},
+      {"impact.contact_time", impact::contact_time},
+      {"impact.largest_share", impact::largest_share},
+      {"impact.passing_share", impact::passing_share},
+      {"impact.peak_force", impact::peak_force},
       {"programme.creep_rate", programme::creep_rate},
       {"programme.relaxed_share", programme::relaxed_share},
       {"programme.unloading_modulus", programme::unloading_modulus},
+      {"shear.dilation", shear::dilation},
+      {"shear.kinetic_share", shear::kinetic_share},
+      {"shear.peak_strength", shear::peak_strength},
+      {"shear.platen_imbalance", shear::platen_imbalance},
+      {"shear.residual_strength", shear::residual_strength},
       {"uniaxial.kinetic_share", uniaxial::kinetic_share},
       {"uniaxial.peak_strain", uniaxial::peak_strain},
       {"uniaxial.peak_stress", uniaxial::peak_stress},
@@ -38,10 +65,16 @@ const std::map<std::string, Function> &registry() {
 /// The functions that judge a run instead of measuring the material, by family.
 const std::multimap<std::string, std::string> &quality_registry() {
   static const std::multimap<std::string, std::string> functions = {
+      {"cantilever", "kinetic_share"},
+      {"cantilever", "platen_imbalance"},
+      {"shear", "kinetic_share"},
+      {"shear", "platen_imbalance"},
       {"uniaxial", "kinetic_share"},
       {"uniaxial", "platen_imbalance"},
       {"uniaxial", "tangent_modulus_platen"},
       {"uniaxial", "peak_strain"},
+      {"bending", "kinetic_share"},
+      {"bending", "platen_imbalance"},
       {"brazilian", "kinetic_share"},
       {"brazilian", "platen_imbalance"},
   };

@@ -31,6 +31,15 @@ TEST(Genesis, SameRequestGivesTheCommittedBytes) {
   brazilian.height = 0.005;
   brazilian.r_min = 0.35e-3;
   EXPECT_TRUE(data_file_text(make_specimen(brazilian)) == committed("brazilian_small_3d.data"));
+  SpecimenRequest bar = small_cylinder();
+  bar.height = 0.040;
+  EXPECT_TRUE(data_file_text(make_specimen(bar)) == committed("bar_small_3d.data"));
+  SpecimenRequest beam = small_rectangle();
+  beam.width = 0.080, beam.height = 0.020, beam.r_min = 0.7e-3;
+  EXPECT_TRUE(data_file_text(make_specimen(beam)) == committed("beam_small_2d.data"));
+  SpecimenRequest box = small_rectangle();
+  box.width = 0.040, box.height = 0.020, box.r_min = 0.6e-3;
+  EXPECT_TRUE(data_file_text(make_specimen(box)) == committed("box_small_2d.data"));
 }
 
 TEST(Genesis, AnotherSeedIsAnotherPackingOfTheSameSizes) {

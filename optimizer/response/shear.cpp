@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "response/shear.h"
+
+#include <algorithm>
+
+#include "response/loading_branch.h"
+
+namespace bondlab::shear {
+
+namespace {
+
+struct Branch {
+  const std::vector<double> &stress;
+  std::size_t peak;
+};
+
+Branch branch_of(const Curve &curve) {
+  require_monotonic_time(curve);
+  const auto &stress = finite_column(curve, "shear_stress");
+  return {stress, find_peak(stress)};
+}
+
+}  // namespace
+
+double peak_strength(const Curve &curve, const ResponseContext &) {
+  const Branch b = branch_of(curve);
+  return b.stress[b.peak];
+}
+
+double residual_strength(const Curve &curve, const ResponseContext &) {
+  const Branch b = branch_of(curve);
+  const auto &way = finite_column(curve, "displacement");
+  const double from = way.back() - 0.2 * (way.back() - way.front());
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = b.peak; i < way.size(); ++i)
+    if (way[i] >= from) sum += b.stress[i], ++count;
+  if (way[b.peak] > from || count < minimum_window_samples)
+    throw ResponseError(ResponseCause::test_not_finished,
+                        "the peak is in the last fifth of the displacement: shear further");
+  return sum / static_cast<double>(count);
+}
+
+double dilation(const Curve &curve, const ResponseContext &) {
+  require_monotonic_time(curve);
+  const auto &way = finite_column(curve, "displacement");
+  const auto &lift = finite_column(curve, "lift");
+  std::size_t start = 0;
+  while (start + 1 < way.size() && way[start + 1] <= way.front()) ++start;
+  return *std::max_element(lift.begin() + static_cast<std::ptrdiff_t>(start), lift.end()) -
+         lift[start];
+}
+
+double platen_imbalance(const Curve &curve, const ResponseContext &) {
+  const Branch b = branch_of(curve);
+  return relative_imbalance(finite_column(curve, "force_top"), finite_column(curve, "force_bottom"),
+                            loading_window(b.stress, b.peak));
+}
+
+double kinetic_share(const Curve &curve, const ResponseContext &) {
+  const Branch b = branch_of(curve);
+  return bondlab::kinetic_share(curve, loading_window(b.stress, b.peak));
+}
+
+}  // namespace bondlab::shear
