@@ -178,12 +178,13 @@ inline BeamVerdict beam_softening(double was, double sigma, double tau, double t
   const double push = sigma * tan_phi;
   const double slide = (tau + push) / cohesion, tear = sigma / cutoff;
   const double factor = slide > tear ? slide : tear;
-  const double before = was * integrity(worst, failure);
   const double reached = factor > worst ? factor : worst;
   const double share = was * integrity(reached, failure);
+  lost += was * softening_loss(worst, reached, failure, energy);
   worst = was > 0.0 ? reached : worst;
-  lost += failure > 1.0 ? (before - share) * energy : 0.0;
-  const double kind = (tear >= slide) | (push >= tau) ? 1.0 : 2.0;
+  // brittle: as in beam_verdict; softening: the larger of the two rules
+  const bool torn = (tear >= slide) | ((failure <= 1.0) & (tear >= 1.0));
+  const double kind = torn | (push >= tau) ? 1.0 : 2.0;
   return {share, (was > 0.0) & (share <= 0.0) ? kind : 0.0};
 }
 

@@ -62,8 +62,8 @@ void beam_block_3d(const Kinematics3 &k, const Orientations3 &o, const BeamArray
                                            failure[b], energy, worst, lost);
       share = advance ? v.share : seen;
       pull = fn > 0.0 ? share * fn : (share > 0.0 ? fn : 0.0);
-      sigma_b[b] = seen * sigma;
-      tau_b[b] = seen * tau;
+      sigma_b[b] = was * sigma;
+      tau_b[b] = was * tau;
       fate_b[b] = advance ? v.fate : 0.0;
       if (advance) {
         alive_b[b] = share > 0.0 ? was : 0.0;

@@ -60,11 +60,14 @@ inline double integrity(double worst, double failure) {
 // Energy that softening takes in a step, J: s_max goes from `before` to `worst`, at which the effective
 // forces store `stored`. In proportional loading the stored energy at s is stored (s/worst)^2, and
 // -integral of it dw, w as above, is (w_before - w_worst) stored at the geometric mean of the two s.
-// A brittle break is not counted.
-inline double softening_loss(double before, double worst, double failure, double stored) {
+// With the last of it goes what the bond carried in compression, `closed`. A brittle break is not
+// counted.
+inline double softening_loss(double before, double worst, double failure, double stored,
+                             double closed = 0.0) {
   const double from = before > 1.0 ? before : 1.0, to = worst < failure ? worst : failure;
   const double share = integrity(from, failure) - integrity(to, failure);
-  const double loss = share * stored * (from / worst) * (to / worst);
+  const double gone = worst >= failure ? closed : 0.0;
+  const double loss = share * stored * (from / worst) * (to / worst) + gone;
   return failure > 1.0 && to > from ? loss : 0.0;
 }
 

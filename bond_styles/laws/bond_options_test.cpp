@@ -175,6 +175,30 @@ TEST_P(Options, softening_in_shear) {
   EXPECT_NEAR(b.pairs[0].lost / (0.5 * 2.5 * peak * u_c), 1.0, 0.05);
 }
 
+// Pressed while its shear softens away: what it carried in compression goes too, and is counted by the
+// parallel bond (the others lose it unseen).
+TEST_P(Options, compression_of_a_bond_that_softens_away_is_lost) {
+  if (law().name != "parallel") return;
+  Bench b = pair({1e9, 2.6, 1e300, kSigma, {}});
+  b.pairs[0].failure = 2.5;
+  const BondStiffness k = stiffness(b);
+  const double u_c = kSigma * b.section(b.pairs[0]).area / k.shear, push = 0.3 * u_c;
+  b.load(0.0, false);
+  moved_to(b, {2e-3 - push, 0, 0});
+  double work = 0.0;
+  const Vec3 start = b.grains[1].x;
+  Vec3 before = b.grains[1].f;
+  const double pressed = b.potential_energy();
+  EXPECT_NEAR(pressed, 0.5 * k.normal * push * push, 1e-6 * pressed);
+  for (int n = 1; b.pairs[0].alive != 0.0; ++n) {
+    const Vec3 at = b.grains[1].x, now = moved_to(b, start + Vec3{0, 1e-3 * n * u_c, 0});
+    work -= 0.5 * dot(before + now, b.grains[1].x - at);
+    before = now;
+  }
+  EXPECT_EQ(b.potential_energy(), 0.0);
+  EXPECT_NEAR(b.lost_energy() / (work + pressed), 1.0, 1e-3);
+}
+
 // G_f below what the bond stores at its strength: it can't fall that steeply, it breaks there.
 TEST_P(Options, below_the_brittle_limit_it_is_brittle) {
   for (const double times_brittle : {0.1, 0.99, 1.0}) {

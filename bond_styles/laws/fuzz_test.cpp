@@ -79,6 +79,14 @@ class Fuzzed : public testing::TestWithParam<LawAndSpace> {
   }
 };
 
+// What rounding of a pair's distance and angles alone makes of a torque, N m: total laws take strains
+// of any size from positions and orientations that are good to 1e-16 of themselves.
+double torque_rounding(const Bench &b, const BondStiffness &s) {
+  const PairRow &r = b.pairs[0];
+  const double d = b.distance(0, 1), k = s.normal * std::max(1.0, r.tension) + s.shear + r.kn + r.ks;
+  return 2e-15 * (k * d * d + s.bend + s.twist);
+}
+
 double load_size(const Bench &b) { return length(b.grains[0].f) + 1e-300; }
 
 }  // namespace
@@ -86,7 +94,7 @@ double load_size(const Bench &b) { return length(b.grains[0].f) + 1e-300; }
 TEST_P(Fuzzed, loads_are_numbers_and_keep_both_momenta) {
   Dice dice(101);
   int broken = 0, softened = 0;
-  for (int trial = 0; trial < 6000; ++trial) {
+  for (int trial = 0; trial < 3000; ++trial) {
     Bench b = any_pair(dice);
     b.load(0.0, false);
     double lost = 0.0, worst = 0.0;
@@ -100,7 +108,7 @@ TEST_P(Fuzzed, loads_are_numbers_and_keep_both_momenta) {
       ASSERT_EQ(length(f + b.grains[1].f), 0.0);
       // angular momentum: t_i + t_j = (x_j - x_i) x f, f the force on i
       const double size = length(ti) + length(tj) + length(d) * length(f);
-      ASSERT_LE(length(ti + tj - cross(d, f)), 1e-13 * size) << trial << ' ' << k;
+      ASSERT_LE(length(ti + tj - cross(d, f)), 1e-13 * size + torque_rounding(b, law().stiffness(b, r))) << trial << ' ' << k;
       ASSERT_GE(r.lost, lost) << trial << ' ' << k;
       ASSERT_GE(r.worst, worst);
       lost = r.lost, worst = r.worst;
@@ -111,14 +119,14 @@ TEST_P(Fuzzed, loads_are_numbers_and_keep_both_momenta) {
       softened += r.alive != 0.0 && b.carried(r) < 1.0;
     }
   }
-  EXPECT_GT(broken, 500);  // the dice do reach what they should
+  EXPECT_GT(broken, 300);  // the dice do reach what they should
   EXPECT_GT(softened, 100);
 }
 
 TEST_P(Fuzzed, break_creates_no_energy) {
   Dice dice(202);
   int broken = 0;
-  for (int trial = 0; trial < 6000; ++trial) {
+  for (int trial = 0; trial < 3000; ++trial) {
     Bench b = any_pair(dice);
     b.load(0.0, false);
     for (int k = 0; k < 12 && b.pairs[0].alive != 0.0; ++k) {
@@ -132,23 +140,30 @@ TEST_P(Fuzzed, break_creates_no_energy) {
       broken += b.pairs[0].alive == 0.0;
     }
   }
-  EXPECT_GT(broken, 500);
+  EXPECT_GT(broken, 300);
 }
 
 TEST_P(Fuzzed, broken_bond_is_its_contact) {
   Dice dice(303);
   int compared = 0, loaded = 0;
-  for (int trial = 0; trial < 6000; ++trial) {
+  for (int trial = 0; trial < 3000; ++trial) {
     Bench b = any_pair(dice);
     b.load(0.0, false);
     for (int k = 0; k < 12; ++k) {
       Bench contact = b;
-      contact.pairs[0].bonded = false;
-      if (!b.contacts) contact.pairs[0].kn = contact.pairs[0].ks = 0.0;
+      PairRow &row = contact.pairs[0];
+      row.bonded = false;
+      if (!b.contacts) row.kn = row.ks = 0.0;
+      const bool replaced = row.kn == 0.0 && law().replaced_by;
+      if (replaced) {
+        const ContactParametersOfPair c = law().replaced_by(b, b.pairs[0]);
+        row.kn = c.kn, row.ks = c.ks, row.mu = c.mu;
+      }
       Dice same = dice;
       move(b, dice);
       move(contact, same);
       if (b.pairs[0].alive != 0.0) continue;
+      if (replaced && b.pairs[0].fate != BondFate::intact) continue;  // its history begins after the break
       // in the step of the break and ever after
       ASSERT_LE(length(b.grains[0].f - contact.grains[0].f), 1e-14 * load_size(contact)) << trial << ' ' << k;
       for (int g = 0; g < 2; ++g)
@@ -172,19 +187,17 @@ TEST_P(Fuzzed, no_motion_no_change) {
     Bench b = any_pair(dice);
     b.load(0.0, false);
     stay(b);
-    // a step's rounding of a distance, times a stiffness
     const BondStiffness s = law().stiffness(b, b.pairs[0]);
-    const double k = s.normal * std::max(1.0, b.pairs[0].tension) + s.shear + b.pairs[0].kn + b.pairs[0].ks;
-    const auto rounding = [&] { return 4e-16 * k * b.distance(0, 1); };
-    ASSERT_LE(length(b.grains[0].f), rounding()) << trial;
-    ASSERT_LE(length(b.grains[0].t) + length(b.grains[1].t), 2.0 * rounding() * b.distance(0, 1)) << trial;
+    const auto rounding = [&] { return torque_rounding(b, s); };
+    ASSERT_LE(length(b.grains[0].f) * b.distance(0, 1), rounding()) << trial;
+    ASSERT_LE(length(b.grains[0].t) + length(b.grains[1].t), rounding()) << trial;
     for (int n = 0; n < 4; ++n) move(b, dice);
     stay(b);  // whatever breaks or is damped has done so
     const Vec3 f = b.grains[0].f, ti = b.grains[0].t, tj = b.grains[1].t;
     const double size = length(f), turn = length(ti) + length(tj) + b.distance(0, 1) * size, lost = b.pairs[0].lost;
     for (int n = 0; n < 3; ++n) stay(b);
-    ASSERT_LE(length(f - b.grains[0].f), 1e-14 * size + 3.0 * rounding()) << trial;
-    ASSERT_LE(length(ti - b.grains[0].t) + length(tj - b.grains[1].t), 1e-14 * turn + 3.0 * rounding() * b.distance(0, 1)) << trial;
+    ASSERT_LE(length(f - b.grains[0].f) * b.distance(0, 1), 1e-14 * turn + rounding()) << trial;
+    ASSERT_LE(length(ti - b.grains[0].t) + length(tj - b.grains[1].t), 1e-14 * turn + rounding()) << trial;
     ASSERT_NEAR(b.pairs[0].lost, lost, 1e-10 * lost) << trial;
   }
 }

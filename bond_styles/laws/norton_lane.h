@@ -90,7 +90,11 @@ template <bool advance, bool options>
     share = integrity(r.worst, in.failure);
     before = integrity(in.worst, in.failure);
     stands = share == 0.0 ? 0.0 : in.alive;
-    cause = in_tension >= other ? 1.0 : (in_shear >= crushed ? 2.0 : 3.0);
+    // brittle: in the order of the branch below; softening: the largest of the three rules
+    const bool brittle = in.failure <= 1.0;
+    const bool torn = (in_tension >= other) | (brittle & (in_tension >= 1.0));
+    const bool slid = (in_shear >= crushed) | (brittle & (in_shear >= 1.0));
+    cause = torn ? 1.0 : (slid ? 2.0 : 3.0);
   } else {
     const double no_crushing = pressed >= in.crush_c ? 0.0 : in.alive;
     const double no_shear = tau >= in.tau_c ? 0.0 : no_crushing;
@@ -117,7 +121,7 @@ template <bool advance, bool options>
                              half_length * before * moments);
   r.lost = 0.0;
   if constexpr (options) {
-    // Softening takes the fall of the share times the energy that the share scales.
+    // Softening eats of the energy that the share scales.
     const double opening = s > 0.0 ? s * s * per_normal : 0.0;
     const double scaled =
         half_volume * (opening + tau_now * tau_now * per_shear) +

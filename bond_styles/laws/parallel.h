@@ -167,6 +167,8 @@ void parallel_block_3d(const Kinematics3& k, const ParallelArrays3& a, const Con
     if constexpr (options) {
       fs_out = share * fs_out, mb_out = share * mb_out, mt_out *= share;
       fn_out *= fn > 0.0 ? share : 1.0;
+      const double pressed = fn > 0.0 ? 0.0 : fn;
+      const double closed = 0.5 * pressed * pressed / (kn * section.area);
       const double stored = option_energy(fn > 0.0 ? fn : 0.0, dot(fs, fs), dot(mb, mb), mt * mt,
                                           kn * opening, ks, kn,
                                           section.area, section.bend, section.twist);
@@ -181,7 +183,7 @@ void parallel_block_3d(const Kinematics3& k, const ParallelArrays3& a, const Con
       mb_out = mb_out + vb * p.bend;
       mt_out += vt * p.twist;
       if constexpr (advance) {
-        lost_o[b] += alive * softening_loss(worst_before, worst, failure, stored) + vn * stretch * stretch +
+        lost_o[b] += alive * softening_loss(worst_before, worst, failure, stored, closed) + vn * stretch * stretch +
                      vs * dot(p.shear, p.shear) + vb * dot(p.bend, p.bend) + vt * p.twist * p.twist;
         worst_o[b] = worst;
       }
@@ -272,6 +274,8 @@ void parallel_block_2d(const Kinematics2& k, const ParallelArrays2& a, const Con
     if constexpr (options) {
       fs_out *= share, mb_out *= share;
       fn_out *= fn > 0.0 ? share : 1.0;
+      const double pressed = fn > 0.0 ? 0.0 : fn;
+      const double closed = 0.5 * pressed * pressed / (kn * section.area);
       const double stored = option_energy(fn > 0.0 ? fn : 0.0, fs * fs, mb * mb, 0.0,
                                           kn * opening, ks, kn,
                                           section.area, section.bend, 1.0);
@@ -281,7 +285,7 @@ void parallel_block_2d(const Kinematics2& k, const ParallelArrays2& a, const Con
       const double stretch = stretched(p, k.ux[b], k.uy[b], k.dx[b], k.dy[b]);
       fn_out += vn * stretch, fs_out += vs * p.shear, mb_out += vb * k.q[b];
       if constexpr (advance) {
-        lost_o[b] += alive * softening_loss(worst_before, worst, failure, stored) + vn * stretch * stretch +
+        lost_o[b] += alive * softening_loss(worst_before, worst, failure, stored, closed) + vn * stretch * stretch +
                      vs * p.shear * p.shear + vb * k.q[b] * k.q[b];
         worst_o[b] = worst;
       }

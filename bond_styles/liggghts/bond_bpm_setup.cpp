@@ -187,7 +187,7 @@ void BondBPM::derive_rows() {
     if (any_options_) {
       const BondOptions &o = types_[p.type];
       const Opening opening_of_bond = opening(p, values);
-      *own(at, k) = failure_factor(o.fracture_energy, opening_of_bond.stiffness, opening_of_bond.strength);
+      *own(at, k) = failure_factor(o.fracture_energy, o.tension * opening_of_bond.stiffness, opening_of_bond.strength);
       *own(at + 1, k) = viscous_time(o.damping, opening_of_bond.stiffness * opening_of_bond.area, p.mi, p.mj);
     }
   }

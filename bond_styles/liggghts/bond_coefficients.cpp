@@ -61,7 +61,7 @@ void BondCoefficients::scatter(std::vector<StrengthDistribution *> strengths) {
 
 void BondCoefficients::seed(std::vector<StrengthDistribution *> strengths) {
   const double value = number("seed", not_negative);
-  if (value != std::floor(value)) wrong("seed must be a whole number");
+  if (value != std::floor(value)) wrong("seed is " + words_[next_ - 1] + ", it must be a whole number");
   for (StrengthDistribution *s : strengths) s->seed = static_cast<std::uint64_t>(value);
 }
 

@@ -34,7 +34,7 @@ void CommandBondInstall::command(int narg, char **arg) {
   if (!force->pair) bad("give `pair_style grain` before `bond_install`: it sets the reach of neighbour lists");
   const bool data = narg > 1 && !strcmp(arg[1], "data");
   if (narg < (data ? 2 : 3))
-    bad("expected `bond_install GROUP gap GAP [keywords]` `bond_install GROUP file FILE [keywords]` or `bond_install GROUP data [keywords]`");
+    bad("expected `bond_install GROUP gap GAP [keywords]`, `bond_install GROUP file FILE [keywords]` or `bond_install GROUP data [keywords]`");
   const int group_index = group->find(arg[0]);
   if (group_index < 0) bad(std::string("there is no group '") + arg[0] + "'");
   group_bit_ = group->bitmask[group_index];
