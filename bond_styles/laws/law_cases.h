@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Job: one entry a bond law for the tests that every law must pass (bond_options_test.cpp,
-// fuzz_test.cpp): how to bond two grains of a bench with it, and its stiffness in closed form.
+// Job: one entry a bond law for the tests that every law must pass (bond_options_test.cpp, bond_damping_test.cpp,
+// scaling_test.cpp, bugs_of_others_test.cpp, fuzz_test.cpp): how to bond two grains with it, its stiffness.
 //
 // To put a law to these tests, write its LawCase and add it to all_laws(). For tests only.
 // Units: SI. Limits: the cases are those of one material; a law's own features have tests of their own.
