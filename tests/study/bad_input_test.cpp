@@ -18,6 +18,7 @@
 #include <string>
 #include <thread>
 
+#include "base/sha256.h"
 #include "base/test_folder.h"
 
 namespace {
@@ -209,6 +210,59 @@ TEST_F(BadInput, AParticleOutsideTheBoxOfASpecimenFileIsFound) {
   EXPECT_EQ(bondlab("specimen check disc.data"), 1);
   const auto line = std::count(data.begin(), data.begin() + static_cast<long>(row), '\n') + 1;
   expect_error("error: disc.data:" + std::to_string(line) + ":");
+}
+
+// A packing cut in two by a gap that no bond crosses: refused as an import, by `specimen check`, and
+// before a run although its record is in order.
+TEST_F(BadInput, APackingInPiecesIsRefusedOnEveryWay) {
+  ASSERT_EQ(bondlab("run study.toml --test ucs"), 0) << err_;
+  fs::path data;
+  for (const auto &entry : fs::recursive_directory_iterator(folder_ / "bondlab-results"))
+    if (entry.path().filename().string().rfind("rectangle-", 0) == 0 &&
+        entry.path().extension() == ".data")
+      data = entry.path();
+  ASSERT_FALSE(data.empty());
+  fs::path record = data;
+  record.replace_extension(".json");
+
+  // The upper half is lifted by 1 mm.
+  std::istringstream rows(text_of(data));
+  std::string cut, xyzr;
+  bool in_atoms = false;
+  for (std::string line; std::getline(rows, line); cut += line + "\n") {
+    std::istringstream cells(line);
+    std::string id, type, density;
+    double diameter = 0, x = 0, y = 0;
+    if (in_atoms && cells >> id >> type >> diameter >> density >> x >> y) {
+      if (y > 0.025) y += 0.001;
+      std::ostringstream place, row;
+      place.precision(17), row.precision(17);
+      place << x << " " << y << " 0";
+      row << id << " " << type << " " << diameter << " " << density << " " << place.str();
+      line = row.str();
+      xyzr += place.str() + " " + std::to_string(diameter / 2) + "\n";
+    }
+    in_atoms = in_atoms || line == "Atoms";
+  }
+  folder_.write("halves.xyzr", xyzr);
+  EXPECT_EQ(bondlab("specimen rectangle --width '25 mm' --height '51 mm' --from halves.xyzr --out "
+                    "halves.data"),
+            1);
+  expect_error("touches the rest nowhere within the bond gap");
+  EXPECT_FALSE(fs::exists(folder_ / "halves.data"));
+  folder_.write("halves.data", "# no description\n" + cut.substr(cut.find('\n') + 1));
+  EXPECT_EQ(bondlab("specimen check halves.data --gap '0.08 mm'"), 1);
+  expect_error("error: halves.data:");
+  expect_error("touches the rest nowhere within the bond gap");
+
+  const std::string old_hash = bondlab::sha256(text_of(data));
+  std::string entry = text_of(record);
+  exchange(entry, old_hash, bondlab::sha256(cut));
+  std::ofstream(data, std::ios::binary) << cut;
+  std::ofstream(record, std::ios::binary) << entry;
+  EXPECT_EQ(bondlab("run study.toml --test ucs --set sigma_c=\"41 MPa\""), 2);
+  expect_error("the packing is in pieces: ");
+  expect_error(data.filename().string() + ":");
 }
 
 int engines_of(const fs::path &folder) {
