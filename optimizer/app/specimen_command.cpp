@@ -12,12 +12,14 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <sstream>
 
 #include "app/commands.h"
 #include "base/units.h"
 #include "base/user_error.h"
 #include "specimen/check_packing.h"
 #include "specimen/data_file.h"
+#include "specimen/exchange.h"
 #include "specimen/size_distribution.h"
 #include "specimen/specimen.h"
 
@@ -31,7 +33,8 @@ struct Options {
   std::map<std::string, std::string> sizes_of_body;  // by the names of container.h
   std::string r_min, density = "2600 kg/m3", from, out;
   double ratio = 1.66, overlap = SpecimenRequest().overlap;
-  std::string sizes = "uniform";
+  std::string sizes = "uniform", method = "expansion", r_median, d10, d50, d90, classes;
+  double spread = 0;
   std::uint64_t seed = 1;
 };
 
@@ -70,6 +73,15 @@ SpecimenRequest request_from(ContainerShape shape, const Options &options) {
   request.r_ratio = options.ratio;
   request.overlap = options.overlap;
   request.sizes = options.sizes;
+  request.method = options.method;
+  request.r_median = quantity("--r-median", options.r_median, "m");
+  request.r_spread = options.spread;
+  request.d10 = quantity("--d10", options.d10, "m");
+  request.d50 = quantity("--d50", options.d50, "m");
+  request.d90 = quantity("--d90", options.d90, "m");
+  std::istringstream classes(options.classes);
+  for (std::string text; std::getline(classes, text, ',');)
+    request.classes.push_back(parse_size_class(text));
   request.seed = options.seed;
   return request;
 }
@@ -120,11 +132,11 @@ void make(ContainerShape shape, const Options &options) {
   SpecimenRequest request = request_from(shape, options);
   Specimen specimen;
   if (options.from.empty()) {
-    if (options.r_min.empty())
+    if (options.r_min.empty() && options.sizes == "uniform")
       throw UserError("--r-min is missing (the smallest radius, such as \"0.66 mm\")");
     specimen = make_specimen(request, show_progress);
   } else {
-    specimen = read_xyzr(options.from, request);
+    specimen = import_packing(options.from, request);
   }
   check_packing(specimen);
   write_data_file(specimen, out);
@@ -132,11 +144,10 @@ void make(ContainerShape shape, const Options &options) {
 }
 
 void add_shape(CLI::App &specimen, ContainerShape shape) {
-  const char *const about[] = {"discs in a rectangle of width x and height y",
-                               "discs in a circle, loaded along y",
-                               "spheres in a cylinder with axis z",
-                               "spheres in a prism of width x, height y and length z",
-                               "spheres in a sphere"};
+  const char *const about[] = {
+      "discs in a rectangle of width x and height y", "discs in a circle, loaded along y",
+      "spheres in a cylinder with axis z", "spheres in a prism of width x, height y and length z",
+      "spheres in a sphere"};
   CLI::App *command = specimen.add_subcommand(shape_name(shape), about[static_cast<int>(shape)]);
   const auto options = std::make_shared<Options>();
   for (const NamedDimension &dimension : dimensions_of(shape))
@@ -160,6 +171,18 @@ void add_shape(CLI::App &specimen, ContainerShape shape) {
       ->add_option("--sizes", options->sizes,
                    "distribution of radii: " + join(size_distribution_names()))
       ->capture_default_str();
+  command->add_option("--r-median", options->r_median, "log-normal: median radius");
+  command->add_option("--spread", options->spread, "log-normal: standard deviation of ln r");
+  command->add_option("--classes", options->classes,
+                      "discrete: radii and shares of the number, \"0.5 mm: 30 %, 0.8 mm: 70 %\"");
+  command->add_option("--d10", options->d10,
+                      "d10-d50-d90: diameter below which 10 % of the mass is");
+  command->add_option("--d50", options->d50, "the same, 50 %");
+  command->add_option("--d90", options->d90, "the same, 90 %");
+  command
+      ->add_option("--method", options->method,
+                   "way of packing: " + join(packing_methods()) + " (filling: touching, no stress)")
+      ->capture_default_str();
   command->add_option("--seed", options->seed, "another seed is another packing")
       ->capture_default_str();
   command->add_option("--density", options->density, "density of the particles")
@@ -169,7 +192,7 @@ void add_shape(CLI::App &specimen, ContainerShape shape) {
                    "locked-in stress as mean overlap over mean radius")
       ->capture_default_str();
   command->add_option("--from", options->from,
-                      "take the particles from a text file of x y z r in m");
+                      "take the particles from a file: text of x y z r in m, .vtp, .vtu or .data");
   command
       ->add_option("--out", options->out,
                    "specimen file to write; its record NAME.json goes beside it")
@@ -185,6 +208,13 @@ void add_specimen(CLI::App &app) {
   specimen->require_subcommand(1);
   for (const std::string &name : container_shape_names())
     add_shape(*specimen, shape_from_name(name));
+
+  CLI::App *exported =
+      specimen->add_subcommand("export", "write a specimen file as x y z r or for ParaView");
+  const auto in = std::make_shared<std::string>(), out = std::make_shared<std::string>();
+  exported->add_option("file", *in, "specimen file")->required();
+  exported->add_option("--out", *out, "file to write: NAME.vtp, NAME.xyzr or NAME.txt")->required();
+  exported->callback([in, out] { export_packing(read_packing_file(*in), *out); });
 
   CLI::App *check = specimen->add_subcommand("check", "look whether a specimen file can be tested");
   const auto file = std::make_shared<std::string>(), gap = std::make_shared<std::string>();

@@ -46,7 +46,8 @@ void show(const Options &options) {
   output.plane = options.plane;
   output.png = options.png;
   output.paraview = !options.no_paraview;
-  const std::filesystem::path out = options.out.empty() ? run / "view" : std::filesystem::path(options.out);
+  const std::filesystem::path out =
+      options.out.empty() ? run / "view" : std::filesystem::path(options.out);
   const ViewWritten written = write_view(read_run(run, read), out, output);
   for (const std::filesystem::path &file : written.files) fmt::print("{}\n", file.string());
   for (const std::string &sentence : written.missing) fmt::print("{}\n", sentence);

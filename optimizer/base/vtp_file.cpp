@@ -53,8 +53,7 @@ void put_cells(std::string &out, const char *element, const std::vector<double> 
                int points_a_cell) {
   VtpArray connectivity{"connectivity", 1, true, points_of_cells}, offsets{"offsets", 1, true, {}};
   for (std::size_t end = 0; end < points_of_cells.size();)
-    offsets.values.push_back(
-        static_cast<double>(end += static_cast<std::size_t>(points_a_cell)));
+    offsets.values.push_back(static_cast<double>(end += static_cast<std::size_t>(points_a_cell)));
   put_arrays(out, element, {connectivity, offsets});
 }
 
@@ -83,8 +82,8 @@ class Elements {
   }
   bool is(std::string_view name) const {
     return tag_.substr(0, name.size()) == name &&
-           (tag_.size() == name.size() || std::string_view(" \t\r\n/").find(tag_[name.size()]) !=
-                                              std::string_view::npos);
+           (tag_.size() == name.size() ||
+            std::string_view(" \t\r\n/").find(tag_[name.size()]) != std::string_view::npos);
   }
   std::string attribute(const std::string &name) const {
     for (std::size_t at = 0; (at = tag_.find(name + "=", at)) != std::string_view::npos; ++at) {
@@ -97,9 +96,7 @@ class Elements {
     }
     return "";
   }
-  std::string_view words_after() const {
-    return text_.substr(at_, text_.find('<', at_) - at_);
-  }
+  std::string_view words_after() const { return text_.substr(at_, text_.find('<', at_) - at_); }
   [[noreturn]] void fail(const std::string &what) const {
     int line = 1;
     for (const char c : text_.substr(0, at_)) line += c == '\n';

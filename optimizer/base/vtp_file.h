@@ -27,7 +27,7 @@ struct VtpArray {
 };
 
 struct VtpData {
-  std::vector<double> points;            // x y z, x y z, ...
+  std::vector<double> points;             // x y z, x y z, ...
   std::vector<std::array<int, 2>> lines;  // between points, from 0
   std::vector<VtpArray> point_data;
   std::vector<VtpArray> cell_data;  // of the lines

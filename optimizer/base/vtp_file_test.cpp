@@ -79,8 +79,7 @@ TEST(VtpFile, SaysWhatItCantRead) {
          "is stored as 'appended' (allowed: ascii");
   expect(complaint([](std::string &t) { replace(t, "0.5\n", "half\n"); }),
          "value 1 of the array 'radius_m' isn't a finite number");
-  expect(complaint([](std::string &t) { replace(t, "0.5\n", ""); }),
-         "has 2 values for 3 points");
+  expect(complaint([](std::string &t) { replace(t, "0.5\n", ""); }), "has 2 values for 3 points");
   expect(complaint([](std::string &t) { replace(t, "PolyData\"", "ImageData\""); }),
          "the file holds 'ImageData'");
   expect(complaint([](std::string &t) { t = "x y z r\n"; }), "not a VTK XML file");

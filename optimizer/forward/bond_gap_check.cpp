@@ -24,8 +24,8 @@ void check_bond_gap(const std::filesystem::path &specimen_file, double gap) {
   const Clusters parts = connected_clusters(find_pairs(particles, gap));
   std::vector<std::size_t> size(static_cast<std::size_t>(parts.count), 0);
   for (const int label : parts.label) ++size[static_cast<std::size_t>(label)];
-  const std::size_t largest = static_cast<std::size_t>(
-      std::max_element(size.begin(), size.end()) - size.begin());
+  const std::size_t largest =
+      static_cast<std::size_t>(std::max_element(size.begin(), size.end()) - size.begin());
   const std::size_t count = particles.size(), apart = count - size[largest];
   if (static_cast<double>(apart) <= kFloaters * static_cast<double>(count)) return;
 
@@ -34,10 +34,10 @@ void check_bond_gap(const std::filesystem::path &specimen_file, double gap) {
       if (is_it(static_cast<std::size_t>(parts.label[i]))) return i;
   };
   const auto alone = static_cast<std::size_t>(std::count(size.begin(), size.end(), 1));
-  const std::string within =
-      " within the bond gap of " + format_quantity(gap, "mm") +
-      " (deck variable 'gap'); usual for this packing: " +
-      format_quantity(0.05 * mean_radius, "mm", 2) + ", a twentieth of the mean radius";
+  const std::string within = " within the bond gap of " + format_quantity(gap, "mm") +
+                             " (deck variable 'gap'); usual for this packing: " +
+                             format_quantity(0.05 * mean_radius, "mm", 2) +
+                             ", a twentieth of the mean radius";
   if (static_cast<double>(alone) > kFloaters * static_cast<double>(count)) {
     const std::size_t first = first_of([&](std::size_t part) { return size[part] == 1; });
     throw UserError({specimen_file.string(), packing.rows[first].line, 0},

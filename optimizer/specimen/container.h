@@ -107,8 +107,7 @@ class Container {
       visit_pair(y + 0.5 * size_.height, 0.5 * size_.height - y, 1, reach, 5, visit);
       return;
     }
-    if (shape_ == ContainerShape::cylinder)
-      visit_pair(z, size_.height - z, 2, reach, 0, visit);
+    if (shape_ == ContainerShape::cylinder) visit_pair(z, size_.height - z, 2, reach, 0, visit);
     const double radius = 0.5 * size_.diameter;
     const double up = shape_ == ContainerShape::sphere ? z : 0.0;
     const double rho2 = x * x + y * y + up * up;
@@ -122,13 +121,11 @@ class Container {
  private:
   // Two parallel planes across `axis`.
   template <class Visit>
-  static void visit_pair(double low, double high, int axis, double reach, int wall,
-                         Visit &&visit) {
+  static void visit_pair(double low, double high, int axis, double reach, int wall, Visit &&visit) {
     if (low < reach)
       visit(low, axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0, wall);
     if (high < reach)
-      visit(high, axis == 0 ? -1.0 : 0.0, axis == 1 ? -1.0 : 0.0, axis == 2 ? -1.0 : 0.0,
-            wall + 1);
+      visit(high, axis == 0 ? -1.0 : 0.0, axis == 1 ? -1.0 : 0.0, axis == 2 ? -1.0 : 0.0, wall + 1);
   }
   struct NotchWall {
     double distance, along, above;  // of the nearest point; direction away from it

@@ -103,19 +103,20 @@ TEST(Container, DepthIsTheNearestWallAndNormalsPointUpItsSlope) {
       double at[3];
       for (int k = 0; k < 3; ++k) at[k] = lo[k] + random() * (hi[k] - lo[k]);
       double nearest = INFINITY;
-      box.walls_within(
-          at[0], at[1], at[2], INFINITY,
-          [&](double distance, double nx, double ny, double nz, int wall) {
-            nearest = std::min(nearest, distance);
-            EXPECT_NEAR(nx * nx + ny * ny + nz * nz, 1, 1e-12) << label(box);
-            // One step along the normal adds its length to the distance from that wall.
-            const double step = 1e-6;
-            box.walls_within(at[0] + step * nx, at[1] + step * ny, at[2] + step * nz, INFINITY,
-                             [&](double moved, double, double, double, int same) {
-                               if (same != wall) return;
-                               EXPECT_NEAR(moved - distance, step, 1e-9) << label(box);
-                             });
-          });
+      box.walls_within(at[0], at[1], at[2], INFINITY,
+                       [&](double distance, double nx, double ny, double nz, int wall) {
+                         nearest = std::min(nearest, distance);
+                         EXPECT_NEAR(nx * nx + ny * ny + nz * nz, 1, 1e-12) << label(box);
+                         // One step along the normal adds its length to the distance from that
+                         // wall.
+                         const double step = 1e-6;
+                         box.walls_within(at[0] + step * nx, at[1] + step * ny, at[2] + step * nz,
+                                          INFINITY,
+                                          [&](double moved, double, double, double, int same) {
+                                            if (same != wall) return;
+                                            EXPECT_NEAR(moved - distance, step, 1e-9) << label(box);
+                                          });
+                       });
       EXPECT_NEAR(nearest, box.depth(at[0], at[1], at[2]), 1e-12) << label(box);
     }
   }
@@ -123,7 +124,7 @@ TEST(Container, DepthIsTheNearestWallAndNormalsPointUpItsSlope) {
 
 TEST(Container, NotchIsASlotInTheMiddleOfTheLongSide) {
   const Container beam(ContainerShape::rectangle, Dimensions{10, 2, 0, 0, 0.5, 0.2});
-  EXPECT_DOUBLE_EQ(beam.depth(0.3, 0.25, 0), 0.2);   // beside it
+  EXPECT_DOUBLE_EQ(beam.depth(0.3, 0.25, 0), 0.2);    // beside it
   EXPECT_NEAR(beam.depth(0.05, 0.9, 0), 0.4, 1e-15);  // above it
   EXPECT_NEAR(beam.depth(0.4, 0.9, 0), 0.5, 1e-15);   // its corner: 0.3, 0.4
   EXPECT_LT(beam.depth(0.05, 0.3, 0), 0);             // in it

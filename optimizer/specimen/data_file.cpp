@@ -276,6 +276,16 @@ Specimen read_data_file(const std::filesystem::path &path) {
   return specimen;
 }
 
+Specimen packing_in(const SpecimenRequest &request, const std::vector<Particle> &particles) {
+  Specimen specimen;
+  specimen.request = request;
+  for (const std::size_t i : space_filling_order(particles))
+    specimen.particles.push_back(particles[i]);
+  specimen.densities.assign(particles.size(), request.density);
+  complete(specimen);
+  return specimen;
+}
+
 Specimen read_xyzr(const std::filesystem::path &path, const SpecimenRequest &request) {
   LineReader in(path);
   std::vector<Particle> particles;
@@ -295,13 +305,7 @@ Specimen read_xyzr(const std::filesystem::path &path, const SpecimenRequest &req
   }
   if (particles.empty() && in.errors.empty()) in.wrong(0, "no particles in the file");
   in.errors.throw_if_any();
-  Specimen specimen;
-  specimen.request = request;
-  for (const std::size_t i : space_filling_order(particles))
-    specimen.particles.push_back(particles[i]);
-  specimen.densities.assign(particles.size(), request.density);
-  complete(specimen);
-  return specimen;
+  return packing_in(request, particles);
 }
 
 }  // namespace bondlab

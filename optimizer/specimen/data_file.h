@@ -52,6 +52,9 @@ PackingFile read_packing_file(const std::filesystem::path &path);
 // line 1.
 Specimen read_data_file(const std::filesystem::path &path);
 
+// Particles made elsewhere in the container of `request`, in space-filling order.
+Specimen packing_in(const SpecimenRequest &request, const std::vector<Particle> &particles);
+
 // Particles of a text file with `x y z r` in m in each line ('#' starts a comment) in the container
 // of `request`, in space-filling order.
 Specimen read_xyzr(const std::filesystem::path &path, const SpecimenRequest &request);

@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "base/user_error.h"
+#include "specimen/fill.h"
 #include "specimen/floaters.h"
 #include "specimen/neighbours.h"
 #include "specimen/relax.h"
@@ -183,6 +184,49 @@ int eliminate_floaters(Packing &packing, Relaxation &relaxation, double overlap,
   return grown;
 }
 
+// Radius expansion and relaxation, stages 1 to 4 of specimen.md.
+template <class Tell>
+Packing expand(const Container &box, const SizeDistribution &sizes, const SpecimenRequest &request,
+               int &grown, Tell &&tell) {
+  const double one = box.dimension() == 2 ? pi * sizes.moment(2) : 4 * pi / 3 * sizes.moment(3);
+  double count = box.measure() * expected_solid_fraction(box) / one;
+  Packing packing{box, {}};
+  for (int attempt = 0; attempt < most_counts; ++attempt) {
+    tell("packing", 0.1 * attempt);
+    packing = pack_coarsely(box, sizes, static_cast<std::size_t>(std::lround(count)),
+                            RandomStream(request.seed, packing_stream));
+    if (std::fabs(packing.size_factor - 1) <= allowed_size_error) break;
+    double correction = packing.size_factor * packing.size_factor;
+    if (box.dimension() == 3) correction *= packing.size_factor;
+    const double next = std::round(count * correction);
+    if (next == std::round(count)) break;
+    count = next;
+  }
+
+  Relaxation relaxation(packing.box, packing.particles);
+  tell("lowering the stress", 0.4);
+  for (double overlap = coarse_overlap / 3; overlap > 1.5 * request.overlap; overlap /= 3)
+    reach_overlap(packing, relaxation, overlap, fine_tolerance);
+  reach_overlap(packing, relaxation, request.overlap, fine_tolerance);
+  tell("growing floaters", 0.6);
+  grown = eliminate_floaters(packing, relaxation, request.overlap, sizes.largest());
+  return packing;
+}
+
+// Filling, and floaters seated in their holes.
+Packing fill_and_seat(const Container &box, const SizeDistribution &sizes, RandomStream random,
+                      int &grown) {
+  Packing packing{box, fill_container(box, sizes, random)};
+  for (int round = 0; round < most_relaxed_growths; ++round) {
+    const int seated = seat_floaters(
+        box, packing.particles, find_floaters(box, packing.particles, 0.5 * coordination_gaps[0]),
+        0, sizes.largest());
+    grown = std::max(grown, seated);
+    if (seated == 0) break;
+  }
+  return packing;
+}
+
 // Particles that are bonded to the largest part by no chain of gaps below bond_gap.
 std::vector<bool> find_detached(const std::vector<Particle> &particles) {
   double r_mean = 0;
@@ -218,39 +262,22 @@ Specimen make_specimen(const SpecimenRequest &given, const SpecimenProgressCallb
   const auto tell = [&](const char *stage, double fraction) {
     if (progress) progress({stage, fraction});
   };
-  const double unit =
-      size_distribution(request.sizes, request.r_min, request.r_ratio)->moment(1);  // m
-  const auto sizes = size_distribution(request.sizes, request.r_min / unit, request.r_ratio);
+  const int dimension = is_flat(request.shape) ? 2 : 3;
+  const double unit = size_distribution(request.size_settings(), dimension)->moment(1);  // m
+  const auto sizes = size_distribution(in_units_of(request.size_settings(), unit), dimension);
   Dimensions size = request.dimensions();
-  for (double *length : {&size.width, &size.height, &size.diameter, &size.length,
-                         &size.notch_depth, &size.notch_width})
+  for (double *length : {&size.width, &size.height, &size.diameter, &size.length, &size.notch_depth,
+                         &size.notch_width})
     *length /= unit;
   const Container box(request.shape, size);
-  const int dimension = box.dimension();
-  const double one = dimension == 2 ? pi * sizes->moment(2) : 4 * pi / 3 * sizes->moment(3);
-
-  double count = box.measure() * expected_solid_fraction(box) / one;
   Packing packing{box, {}};
-  for (int attempt = 0; attempt < most_counts; ++attempt) {
-    tell("packing", 0.1 * attempt);
-    packing = pack_coarsely(box, *sizes, static_cast<std::size_t>(std::lround(count)),
-                            RandomStream(request.seed, packing_stream));
-    if (std::fabs(packing.size_factor - 1) <= allowed_size_error) break;
-    double correction = packing.size_factor * packing.size_factor;
-    if (dimension == 3) correction *= packing.size_factor;
-    const double next = std::round(count * correction);
-    if (next == std::round(count)) break;
-    count = next;
+  int grown = 0;
+  if (request.method == "filling") {
+    tell("filling", 0);
+    packing = fill_and_seat(box, *sizes, RandomStream(request.seed, packing_stream), grown);
+  } else {
+    packing = expand(box, *sizes, request, grown, tell);
   }
-
-  Relaxation relaxation(packing.box, packing.particles);
-  tell("lowering the stress", 0.4);
-  for (double overlap = coarse_overlap / 3; overlap > 1.5 * request.overlap; overlap /= 3)
-    reach_overlap(packing, relaxation, overlap, fine_tolerance);
-  reach_overlap(packing, relaxation, request.overlap, fine_tolerance);
-  tell("growing floaters", 0.6);
-  const int grown = eliminate_floaters(packing, relaxation, request.overlap, sizes->largest());
-
   attach_or_remove(packing, sizes->largest());
 
   tell("measuring", 0.95);

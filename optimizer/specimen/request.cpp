@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -14,12 +15,10 @@ namespace {
 
 // Changes when the generator gives another packing for the same request: old files are then made
 // anew.
-constexpr const char *generator = "radius-expansion-1";
+constexpr const char *generator = "radius-expansion-1", *filler = "filling-1";
 
-constexpr double fewest_across = 5;  // mean diameters in the smallest size of a container
+constexpr double fewest_across = 5;      // mean diameters in the smallest size of a container
 constexpr double narrowest_notch = 0.5;  // mean radii; bonds reach over gaps of 0.05 to 0.15
-constexpr double largest_ratio =
-    10;  // cells of the neighbour search are as large as the largest particle
 constexpr long most_particles =
     2000000;  // about 2 GB and an hour; beyond it a slip in a unit is likelier than a wish
 constexpr double least_overlap = 1e-7, largest_overlap = 1e-2;
@@ -29,6 +28,8 @@ std::string in_metres(double value) { return format_quantity(value, "m"); }
 bool is_size(double value) { return std::isfinite(value) && value > 0; }
 
 }  // namespace
+
+std::vector<std::string> packing_methods() { return {"expansion", "filling"}; }
 
 void check_request(const SpecimenRequest &request) {
   ErrorCollector errors;
@@ -43,17 +44,24 @@ void check_request(const SpecimenRequest &request) {
     check_size(dimension.name, size.*dimension.value);
   if (request.notch_depth != 0 || request.notch_width != 0) {
     if (!can_have_notch(request.shape)) {
-      errors.add(Place{}, "a " + shape + " can't have a notch (allowed: rectangle, cylinder, prism)");
+      errors.add(Place{},
+                 "a " + shape + " can't have a notch (allowed: rectangle, cylinder, prism)");
     } else {
       check_size("notch_depth", request.notch_depth);
       check_size("notch_width", request.notch_width);
     }
   }
-  check_size("r_min", request.r_min);
-  if (!(std::isfinite(request.r_ratio) && request.r_ratio >= 1 && request.r_ratio <= largest_ratio))
-    errors.add(Place{}, "ratio of largest to smallest radius is " +
-                            canonical_number(request.r_ratio) + " (allowed: 1 to " +
-                            canonical_number(largest_ratio) + ")");
+  try {
+    check_sizes(request.size_settings());
+  } catch (const UserErrors &several) {
+    for (const UserError &error : several.errors()) errors.add(Place{}, error.text());
+  } catch (const UserError &error) {
+    errors.add(Place{}, error.text());
+  }
+  const std::vector<std::string> methods = packing_methods();
+  if (std::find(methods.begin(), methods.end(), request.method) == methods.end())
+    errors.add(Place{},
+               "unknown method \"" + request.method + "\" (allowed: " + join(methods) + ")");
   if (!is_size(request.density))
     errors.add(Place{},
                "density is " + canonical_number(request.density) + " kg/m3 (allowed: > 0)");
@@ -63,7 +71,7 @@ void check_request(const SpecimenRequest &request) {
                             canonical_number(largest_overlap) + ")");
   errors.throw_if_any();
 
-  const auto sizes = size_distribution(request.sizes, request.r_min, request.r_ratio);
+  const auto sizes = size_distribution(request.size_settings(), is_flat(request.shape) ? 2 : 3);
   const Container container = request.container();
   const double r_mean = sizes->moment(1), needed = fewest_across * 2 * r_mean;
   if (container.has_notch() && request.notch_width < narrowest_notch * r_mean)
@@ -74,9 +82,8 @@ void check_request(const SpecimenRequest &request) {
     throw UserError("the " + shape + " is " + in_metres(container.smallest_size()) +
                     " in its smallest direction" +
                     (container.has_notch() ? " (above or beside the notch included)" : "") +
-                    ", too small for particles of mean diameter " +
-                    in_metres(2 * r_mean) + " (allowed: at least " + in_metres(needed) +
-                    ", five particles across)");
+                    ", too small for particles of mean diameter " + in_metres(2 * r_mean) +
+                    " (allowed: at least " + in_metres(needed) + ", five particles across)");
   const int dimension = container.dimension();
   const double one = dimension == 2 ? 4 * sizes->moment(2) : 8 * sizes->moment(3);
   if (container.measure() / one > static_cast<double>(most_particles))
@@ -87,19 +94,25 @@ void check_request(const SpecimenRequest &request) {
 
 SpecimenRequest canonical_request(const SpecimenRequest &request) {
   SpecimenRequest rounded = request;
-  for (double *number :
-       {&rounded.width, &rounded.height, &rounded.diameter, &rounded.length, &rounded.notch_depth,
-        &rounded.notch_width, &rounded.r_min, &rounded.r_ratio, &rounded.density,
-        &rounded.overlap}) {
+  std::vector<double *> more = {&rounded.r_median, &rounded.r_spread, &rounded.d10, &rounded.d50,
+                                &rounded.d90};
+  for (SizeClass &c : rounded.classes) more.insert(more.end(), {&c.r, &c.share});
+  const auto round_off = [](double *number) {
     const std::string text = format_quantity(*number, "", 12);
     std::from_chars(text.data(), text.data() + text.size(), *number);
-  }
+  };
+  for (double *number : more) round_off(number);
+  for (double *number :
+       {&rounded.width, &rounded.height, &rounded.diameter, &rounded.length, &rounded.notch_depth,
+        &rounded.notch_width, &rounded.r_min, &rounded.r_ratio, &rounded.density, &rounded.overlap})
+    round_off(number);
   return rounded;
 }
 
 std::string canonical_text(const SpecimenRequest &given) {
   const SpecimenRequest request = canonical_request(given);
-  std::string text = "bondlab specimen 1\ngenerator " + std::string(generator);
+  std::string text = "bondlab specimen 1\ngenerator " +
+                     std::string(request.method == "filling" ? filler : generator);
   const auto line = [&](const char *name, const std::string &value) {
     text += "\n" + std::string(name) + " " + value;
   };
@@ -112,12 +125,25 @@ std::string canonical_text(const SpecimenRequest &given) {
     line("notch_depth", canonical_number(request.notch_depth));
     line("notch_width", canonical_number(request.notch_width));
   }
-  line("r_min", canonical_number(request.r_min));
-  line("r_ratio", canonical_number(request.r_ratio));
+  // Likewise of the distribution.
+  if (request.sizes == "log-normal") {
+    line("r_median", canonical_number(request.r_median));
+    line("r_spread", canonical_number(request.r_spread));
+  } else if (request.sizes == "discrete") {
+    for (const SizeClass &c : request.classes)
+      line("class", canonical_number(c.r) + " " + canonical_number(c.share));
+  } else if (request.sizes == "d10-d50-d90") {
+    line("d10", canonical_number(request.d10));
+    line("d50", canonical_number(request.d50));
+    line("d90", canonical_number(request.d90));
+  } else {
+    line("r_min", canonical_number(request.r_min));
+    line("r_ratio", canonical_number(request.r_ratio));
+  }
   line("sizes", request.sizes);
   line("seed", std::to_string(request.seed));
   line("density", canonical_number(request.density));
-  line("overlap", canonical_number(request.overlap));
+  if (request.method != "filling") line("overlap", canonical_number(request.overlap));
   return text + "\n";
 }
 

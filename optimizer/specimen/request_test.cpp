@@ -48,7 +48,7 @@ TEST(SpecimenRequest, BadSizesAreNamedWithTheValueAndWhatIsAllowed) {
                 small_cylinder()),
       "height of a cylinder is inf");
   expect_part(complaint([](SpecimenRequest &r) { r.r_min = -1e-3; }),
-              "r_min of a rectangle is -0.001 m");
+              "r_min is -0.001 m (allowed: > 0)");
   expect_part(complaint([](SpecimenRequest &r) { r.r_ratio = 0.6; }), "is 0.6 (allowed: 1 to 10)");
   expect_part(complaint([](SpecimenRequest &r) { r.r_ratio = 11; }), "is 11 (allowed: 1 to 10)");
   expect_part(complaint([](SpecimenRequest &r) { r.density = 0; }),
@@ -110,16 +110,17 @@ TEST(SpecimenKey, IsTheSameForever) {
 TEST(SpecimenKey, DependsOnAllThatMakesThePackingAndOnNothingElse) {
   std::set<std::string> keys = {specimen_key(small_rectangle()), specimen_key(small_disc()),
                                 specimen_key(small_cylinder())};
-  const std::vector<std::function<void(SpecimenRequest &)>> changes = {[](SpecimenRequest &r) { r.width *= 1 + 1e-9; },
-                                                                       [](SpecimenRequest &r) { r.height = 0.06; },
-                                                                       [](SpecimenRequest &r) { r.r_min = 0.7e-3; },
-                                                                       [](SpecimenRequest &r) { r.r_ratio = 1.7; },
-                                                                       [](SpecimenRequest &r) { r.seed = 2; },
-                                                                       [](SpecimenRequest &r) { r.density = 2622; },
-                                                                       [](SpecimenRequest &r) { r.overlap = 1e-4; },
-                                                                       [](SpecimenRequest &r) { r.sizes = "other"; },
-                                                                       [](SpecimenRequest &r) { r.notch_depth = 0.01, r.notch_width = 0.002; },
-                                                                       [](SpecimenRequest &r) { r.notch_depth = 0.01, r.notch_width = 0.003; }};
+  const std::vector<std::function<void(SpecimenRequest &)>> changes = {
+      [](SpecimenRequest &r) { r.width *= 1 + 1e-9; },
+      [](SpecimenRequest &r) { r.height = 0.06; },
+      [](SpecimenRequest &r) { r.r_min = 0.7e-3; },
+      [](SpecimenRequest &r) { r.r_ratio = 1.7; },
+      [](SpecimenRequest &r) { r.seed = 2; },
+      [](SpecimenRequest &r) { r.density = 2622; },
+      [](SpecimenRequest &r) { r.overlap = 1e-4; },
+      [](SpecimenRequest &r) { r.sizes = "other"; },
+      [](SpecimenRequest &r) { r.notch_depth = 0.01, r.notch_width = 0.002; },
+      [](SpecimenRequest &r) { r.notch_depth = 0.01, r.notch_width = 0.003; }};
   for (const auto &change : changes) {
     SpecimenRequest request = small_rectangle();
     change(request);

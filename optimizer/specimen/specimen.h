@@ -13,7 +13,8 @@
 //   equilibrium is found.
 // Limits: the count follows from the container and the sizes; to reach the stress the radii of a
 //   packing are all scaled by one factor within about 0.5 % of 1, and a floater may grow up to 15 %
-//   beyond r_max (30 % where it would have no bond otherwise). Statistics give the radii as they are.
+//   beyond r_max (30 % where it would have no bond otherwise). Statistics give the radii as they
+//   are.
 #pragma once
 
 #include <cstddef>
@@ -23,6 +24,7 @@
 #include <vector>
 
 #include "specimen/container.h"
+#include "specimen/size_distribution.h"
 #include "specimen/statistics.h"
 
 namespace bondlab {
@@ -30,14 +32,18 @@ namespace bondlab {
 struct SpecimenRequest {
   ContainerShape shape = ContainerShape::rectangle;
   // m; which of them a shape has, and where they lie: container.h
-  double width = 0;     // rectangle, prism: along x
-  double height = 0;    // rectangle, prism: along y; cylinder: along its axis z
-  double diameter = 0;  // disc, cylinder, sphere
-  double length = 0;    // prism: along z
+  double width = 0;                         // rectangle, prism: along x
+  double height = 0;                        // rectangle, prism: along y; cylinder: along its axis z
+  double diameter = 0;                      // disc, cylinder, sphere
+  double length = 0;                        // prism: along z
   double notch_depth = 0, notch_width = 0;  // rectangle, cylinder, prism; depth 0: no notch
-  double r_min = 0;               // m; smallest radius
-  double r_ratio = 1.66;          // largest over smallest radius
-  std::string sizes = "uniform";  // a name of size_distribution_names()
+  double r_min = 0;                         // m; smallest radius; uniform
+  double r_ratio = 1.66;                    // largest over smallest radius; uniform
+  std::string sizes = "uniform";            // a name of size_distribution_names()
+  double r_median = 0, r_spread = 0;        // m, 1; log-normal
+  std::vector<SizeClass> classes;           // discrete
+  double d10 = 0, d50 = 0, d90 = 0;         // m; d10-d50-d90
+  std::string method = "expansion";         // a name of packing_methods()
   std::uint64_t seed = 1;
   double density =
       2600;  // kg/m3, of the particles; written to the file, without influence on the packing
@@ -50,6 +56,9 @@ struct SpecimenRequest {
   void set_dimensions(const Dimensions &size) {
     width = size.width, height = size.height, diameter = size.diameter, length = size.length;
     notch_depth = size.notch_depth, notch_width = size.notch_width;
+  }
+  SizeSettings size_settings() const {
+    return {sizes, r_min, r_ratio, r_median, r_spread, classes, d10, d50, d90};
   }
   Container container() const { return Container(shape, dimensions()); }
 };
@@ -66,6 +75,9 @@ struct SpecimenProgress {
   double fraction = 0;  // 0 .. 1, rough
 };
 using SpecimenProgressCallback = std::function<void(const SpecimenProgress &)>;
+
+// "expansion": radii scaled to a low stress; "filling": touching particles, no stress (fill.h).
+std::vector<std::string> packing_methods();
 
 // Throws UserErrors with everything that is wrong with a request.
 void check_request(const SpecimenRequest &request);

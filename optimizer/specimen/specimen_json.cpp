@@ -37,7 +37,7 @@ std::string metadata_line(const Specimen &specimen, std::size_t most) {
   Json json;
   put_container(json, specimen.request);
   json["seed"] = specimen.request.seed;
-  json["method"] = "expansion";
+  json["method"] = specimen.request.method;
   json["r_min"] = rounded(s.r_min, 6);
   json["r_max"] = rounded(s.r_max, 6);
   json["count"] = s.count;
@@ -85,8 +85,21 @@ std::string specimen_record(const Specimen &specimen, const std::string &data_ha
   json["data_hash"] = data_hash;
   Json &asked = json["request"];
   put_container(asked, request);
-  asked["r_min"] = request.r_min;
-  asked["r_ratio"] = request.r_ratio;
+  if (request.method != "expansion") asked["method"] = request.method;
+  if (request.sizes == "log-normal") {
+    asked["r_median"] = request.r_median;
+    asked["r_spread"] = request.r_spread;
+  } else if (request.sizes == "discrete") {
+    for (const SizeClass &c : request.classes)
+      asked["classes"].push_back({{"r", c.r}, {"share", c.share}});
+  } else if (request.sizes == "d10-d50-d90") {
+    asked["d10"] = request.d10;
+    asked["d50"] = request.d50;
+    asked["d90"] = request.d90;
+  } else {
+    asked["r_min"] = request.r_min;
+    asked["r_ratio"] = request.r_ratio;
+  }
   asked["sizes"] = request.sizes;
   asked["seed"] = request.seed;
   asked["density_kg_m3"] = request.density;

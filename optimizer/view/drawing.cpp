@@ -88,8 +88,7 @@ std::string gradients(const std::vector<DrawnDisc> &discs,
                       std::map<std::string, std::string> &names) {
   std::string text = "<defs>\n";
   for (const DrawnDisc &disc : discs) {
-    const auto [at, is_new] =
-        names.emplace(disc.colour, "g" + std::to_string(names.size()));
+    const auto [at, is_new] = names.emplace(disc.colour, "g" + std::to_string(names.size()));
     if (!is_new) continue;
     text += fmt::format(
         "<radialGradient id=\"{}\" cx=\"0.36\" cy=\"0.32\" r=\"0.75\"><stop offset=\"0\" "
@@ -129,8 +128,8 @@ std::string draw(const Drawing &drawing) {
                body_height = scale * (window.y1 - window.y0);
   const double field = std::max(body_width, narrowest);  // what the body stands in the middle of
   const double width = edge + field + gutter + side + edge;
-  const double legend_height = (drawing.bar.ticks.empty() ? 0 : 250) +
-                               22.0 * static_cast<double>(drawing.keys.size());
+  const double legend_height =
+      (drawing.bar.ticks.empty() ? 0 : 250) + 22.0 * static_cast<double>(drawing.keys.size());
   const double bottom = title_height + std::max(body_height, legend_height);
   const double bar_y = bottom + 26;
 
@@ -197,16 +196,17 @@ std::string draw(const Drawing &drawing) {
   for (const DrawnArrow &arrow : drawing.arrows) {
     const double length = std::hypot(arrow.dx, arrow.dy);
     if (length < 1 || !window.holds(arrow.x, arrow.y)) continue;
-    const double ux = arrow.dx / length, uy = -arrow.dy / length, head = std::min(4.0, 0.5 * length);
+    const double ux = arrow.dx / length, uy = -arrow.dy / length,
+                 head = std::min(4.0, 0.5 * length);
     const double x = px(arrow.x), y = py(arrow.y), tx = x + arrow.dx, ty = y - arrow.dy;
-    shafts += fmt::format("M{} {}L{} {}M{} {}L{} {}L{} {}", compact(x), compact(y), compact(tx),
-                          compact(ty), compact(tx - head * (ux - 0.6 * uy)),
-                          compact(ty - head * (uy + 0.6 * ux)), compact(tx), compact(ty),
-                          compact(tx - head * (ux + 0.6 * uy)),
-                          compact(ty - head * (uy - 0.6 * ux)));
+    shafts += fmt::format(
+        "M{} {}L{} {}M{} {}L{} {}L{} {}", compact(x), compact(y), compact(tx), compact(ty),
+        compact(tx - head * (ux - 0.6 * uy)), compact(ty - head * (uy + 0.6 * ux)), compact(tx),
+        compact(ty), compact(tx - head * (ux + 0.6 * uy)), compact(ty - head * (uy - 0.6 * ux)));
   }
   if (!shafts.empty())  // a pale edge, so that they stand out from dark colours too
-    svg.path(shafts, fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"2.6\"", light("paper")));
+    svg.path(shafts,
+             fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"2.6\"", light("paper")));
   if (!shafts.empty())
     svg.path(shafts, fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1\"", light("ink")));
 
@@ -242,9 +242,9 @@ std::string draw(const Drawing &drawing) {
   }
 
   const double length = round_length(window.x1 - window.x0), pixels = scale * length;
-  svg.path(fmt::format("M{} {}v8m0 -4h{}m0 -4v8", compact(edge), compact(bar_y - 8),
-                       compact(pixels)),
-           fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"", light("ink")));
+  svg.path(
+      fmt::format("M{} {}v8m0 -4h{}m0 -4v8", compact(edge), compact(bar_y - 8), compact(pixels)),
+      fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"", light("ink")));
   svg.text(edge + pixels + 8, bar_y,
            (length >= 1e-3 ? significant(length * 1e3) + " mm"
                            : significant(length * 1e6) + " \u00b5m") +

@@ -47,8 +47,8 @@ std::vector<std::string> meanings(const std::vector<std::string> &heads, const s
   if (!given.empty()) {
     if (given.size() != heads.size())
       throw UserError(place, std::to_string(heads.size()) + " columns, but " +
-                                 std::to_string(given.size()) + " names were given: " +
-                                 join(given));
+                                 std::to_string(given.size()) +
+                                 " names were given: " + join(given));
     return given;
   }
   std::vector<std::string> names;

@@ -37,8 +37,9 @@ TEST(LocalDump, WordsInTheFileOrGivenByTheUserServeToo) {
   named.replace(named.find("c_b[1]"), 27, "id1 id2 fn fs");
   EXPECT_EQ(read_local_dump(folder.write("n.txt", named), "").names,
             (std::vector<std::string>{"id1", "id2", "fn", "fs"}));
-  EXPECT_EQ(read_local_dump(folder.write("b.txt", lattice_forces()), "", {"a", "b", "c", "d"}).names,
-            (std::vector<std::string>{"a", "b", "c", "d"}));
+  EXPECT_EQ(
+      read_local_dump(folder.write("b.txt", lattice_forces()), "", {"a", "b", "c", "d"}).names,
+      (std::vector<std::string>{"a", "b", "c", "d"}));
 }
 
 TEST(LocalDump, LastFrameCounts) {

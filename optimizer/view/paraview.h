@@ -5,7 +5,8 @@
 //   fragment; bonds between the same points with state, mode, time of breaking and, where they were
 //   dumped, forces. Glyphs: Sphere, Scale Array diameter (ParaView's sphere has the diameter 1).
 // Units: SI; in the arrays' names where they aren't plain: break_time_s, normal_force_N.
-// Failure: none. Limits: one state, the end; -1 where there is nothing to say (the fragment when the
+// Failure: none. Limits: one state, the end; -1 where there is nothing to say (the fragment when
+// the
 //   bonds aren't known, the time of a bond that holds).
 #pragma once
 

@@ -31,9 +31,8 @@ std::string with_prefix(double value, const char *unit) {
 
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
-  const auto at =
-      values.begin() +
-      static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(values.size() - 1)));
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(
+                                       std::ceil(share * static_cast<double>(values.size() - 1)));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
@@ -241,14 +240,15 @@ Drawing displacements(const RunView &run, const Projection &projection) {
   drawing.title = "Displacement";
   std::vector<double> size;
   for (const ViewParticle &p : run.particles)
-    size.push_back(std::sqrt(std::pow(p.end[0] - p.start[0], 2) + std::pow(p.end[1] - p.start[1], 2) +
+    size.push_back(std::sqrt(std::pow(p.end[0] - p.start[0], 2) +
+                             std::pow(p.end[1] - p.start[1], 2) +
                              std::pow(p.end[2] - p.start[2], 2)));
   const double largest = *std::max_element(size.begin(), size.end()), full = quantile(size, 0.98);
   add_discs(drawing, run, projection, at_end,
             [&](std::size_t i) { return scale_colour(full > 0 ? size[i] / full : 0); });
   drawing.bar = bar_from("displacement", 0, full, "m", largest > full);
-  drawing.sentences.push_back(
-      "From the start to the end of the test; the largest is " + with_prefix(largest, "m") + ".");
+  drawing.sentences.push_back("From the start to the end of the test; the largest is " +
+                              with_prefix(largest, "m") + ".");
   if (projection.whole() || drawing.discs.empty()) return drawing;
 
   // Arrows of about 150 particles, one a square of the picture.
@@ -258,9 +258,9 @@ Drawing displacements(const RunView &run, const Projection &projection) {
     x0 = std::min(x0, at.x), x1 = std::max(x1, at.x);
     y0 = std::min(y0, at.y), y1 = std::max(y1, at.y);
   }
-  const double cell = std::max(std::sqrt((x1 - x0) * (y1 - y0) / 150),
-                               2.2 * std::sqrt((x1 - x0) * (y1 - y0) /
-                                               static_cast<double>(drawing.discs.size())));
+  const double cell =
+      std::max(std::sqrt((x1 - x0) * (y1 - y0) / 150),
+               2.2 * std::sqrt((x1 - x0) * (y1 - y0) / static_cast<double>(drawing.discs.size())));
   std::map<std::pair<long, long>, bool> taken;
   for (const ViewParticle &p : run.particles) {
     if (projection.radius(p.end, p.r) <= 0) continue;
@@ -281,8 +281,8 @@ Drawing fragments_picture(const RunView &run, const Projection &projection) {
   Drawing drawing;
   if (!run.has_bonds) return drawing;
   drawing.title = "Fragments";
-  static const char *const colours[] = {"#d9cfb8", "#3b78b5", "#d8843a", "#4f9d69", "#9a6fb8",
-                                        "#c9556a", "#5bb3b8", "#b39b2e"};
+  static const char *const colours[] = {"#d9cfb8", "#3b78b5", "#d8843a", "#4f9d69",
+                                        "#9a6fb8", "#c9556a", "#5bb3b8", "#b39b2e"};
   constexpr std::size_t shown = sizeof colours / sizeof *colours;
   const std::string single = "#8b95a3", few = "#5c6878";
   const auto colour_of = [&](int fragment) -> std::string {
@@ -303,11 +303,13 @@ Drawing fragments_picture(const RunView &run, const Projection &projection) {
     if (k >= shown)
       ++unnamed;
     else
-      drawing.keys.push_back({colours[k], fmt::format("{:.3g} %, {} particles", 100 * fragment.share,
-                                                      count_text(fragment.particles))});
+      drawing.keys.push_back(
+          {colours[k], fmt::format("{:.3g} %, {} particles", 100 * fragment.share,
+                                   count_text(fragment.particles))});
   }
   if (unnamed > 0) drawing.keys.push_back({few, counted(unnamed, "smaller one", "smaller ones")});
-  if (alone > 0) drawing.keys.push_back({single, counted(alone, "single particle", "single particles")});
+  if (alone > 0)
+    drawing.keys.push_back({single, counted(alone, "single particle", "single particles")});
   drawing.sentences.push_back(
       "Parts still connected by bonds: " + counted(parts, "part", "parts") +
       " of two and more particles, " + counted(alone, "particle", "particles") +

@@ -24,12 +24,11 @@ std::filesystem::path png_from_svg(const std::filesystem::path &svg, const std::
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
   pid_t child = 0;
-  const int error =
-      ::posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments, environ);
+  const int error = ::posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0)
-    throw UserError("PNG pictures need rsvg-convert, but '" + program + "' can't be started: " +
-                    std::strerror(error) +
+    throw UserError("PNG pictures need rsvg-convert, but '" + program +
+                    "' can't be started: " + std::strerror(error) +
                     (error == ENOENT ? "; on Debian: apt-get install librsvg2-bin" : ""));
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {

@@ -26,11 +26,11 @@ class Projection {
   // plane: two letters, horizontal and vertical axis ("zy"); empty: chosen from the body's extents.
   Projection(const RunView &run, Look3d look, const std::string &plane = "");
 
-  bool flat() const { return flat_; }            // 2D
-  bool whole() const { return whole_; }          // a 3D body from a side
+  bool flat() const { return flat_; }    // 2D
+  bool whole() const { return whole_; }  // a 3D body from a side
   bool slice() const { return !flat_ && !whole_; }
-  std::string words() const;                     // "x-z slice through the middle"
-  std::string horizontal() const;                // name of the axis
+  std::string words() const;       // "x-z slice through the middle"
+  std::string horizontal() const;  // name of the axis
   std::string vertical() const;
 
   // In the picture, m; depth grows towards the reader, 0 in the slice's plane.

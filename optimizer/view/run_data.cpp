@@ -235,9 +235,8 @@ void find_fragments(RunView &run) {
   }
   std::vector<std::size_t> order(parts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return parts[a].share > parts[b].share;
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return parts[a].share > parts[b].share; });
   std::vector<int> rank(parts.size());
   run.fragments.clear();
   for (std::size_t k = 0; k < order.size(); ++k) {

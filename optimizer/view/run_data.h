@@ -66,9 +66,9 @@ struct RunView {
   std::vector<BondForce> forces;
   bool has_forces = false;
   long force_step = 0;
-  std::vector<Vector3> force_places;  // of the particles at that step; empty: as at the end
-  Curve curve;                        // without rows when there is none
-  std::string test;                   // "uniaxial_compression"; "" when not known
+  std::vector<Vector3> force_places;        // of the particles at that step; empty: as at the end
+  Curve curve;                              // without rows when there is none
+  std::string test;                         // "uniaxial_compression"; "" when not known
   std::map<std::string, double> variables;  // deck variables in SI, of a run of the store
   std::vector<std::string> missing;         // sentences
   std::size_t broken(BondState state) const;

@@ -57,7 +57,8 @@ inline void write_lattice_run(const TestFolder &folder) {
 
 // Two bonds of the lattice, in the columns of the log's compute.
 inline std::string lattice_forces() {
-  return "ITEM: TIMESTEP\n400\nITEM: NUMBER OF ENTRIES\n2\nITEM: BOX BOUNDS ff ff ff\n-1 1\n-1 1\n-1 "
+  return "ITEM: TIMESTEP\n400\nITEM: NUMBER OF ENTRIES\n2\nITEM: BOX BOUNDS ff ff ff\n-1 1\n-1 "
+         "1\n-1 "
          "1\nITEM: ENTRIES c_b[1] c_b[2] c_b[3] c_b[4] \n2 1 5 -100\n7 1 0 40\n";
 }
 

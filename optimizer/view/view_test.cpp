@@ -104,7 +104,7 @@ TEST(View, SliceIsWhatAPlaneCutsOut) {
   const RunView run = block(5, 5, 8);
   const Projection slice(run, Look3d::slice);
   EXPECT_EQ(slice.words(), "x\u2013z slice through the middle");
-  EXPECT_NEAR(slice.radius({0, 4e-3, 0}, 1e-3), 1e-3, 1e-12);    // its middle is in the plane
+  EXPECT_NEAR(slice.radius({0, 4e-3, 0}, 1e-3), 1e-3, 1e-12);     // its middle is in the plane
   EXPECT_NEAR(slice.radius({0, 4.6e-3, 0}, 1e-3), 0.8e-3, 1e-9);  // cut 0.6 from the middle
   EXPECT_EQ(slice.radius({0, 6e-3, 0}, 1e-3), 0);
   EXPECT_EQ(specimen_picture(run, slice).discs.size(), 40u);
@@ -163,8 +163,8 @@ std::vector<Box> boxes_of(const xml::Document &document) {
     for (const char c : element.text) characters += (static_cast<unsigned char>(c) & 0xc0) != 0x80;
     const double x = std::stod(element.attributes.at("x")),
                  y = std::stod(element.attributes.at("y"));
-    boxes.push_back({x, x + 0.5 * height * characters, y - 0.8 * height, y + 0.2 * height,
-                     element.text});
+    boxes.push_back(
+        {x, x + 0.5 * height * characters, y - 0.8 * height, y + 0.2 * height, element.text});
   }
   return boxes;
 }
@@ -204,7 +204,8 @@ TEST(View, ParticlesThatHaveFlownOffDontShrinkThePicture) {
     double largest = 0;
     const xml::Document document = parsed(draw(drawing));
     for (const xml::Element &element : document.elements)
-      if (element.name == "circle") largest = std::max(largest, std::stod(element.attributes.at("r")));
+      if (element.name == "circle")
+        largest = std::max(largest, std::stod(element.attributes.at("r")));
     return largest;
   };
   EXPECT_NEAR(scale(near), scale(far), 0.2 * scale(near));
@@ -276,8 +277,8 @@ TEST(View, WritesAllPicturesTheRunHasDataFor) {
     if (file.extension() == ".svg") parsed(read_text_file(file));
   }
   EXPECT_EQ(names, (std::set<std::string>{"specimen.svg", "cracks_by_mode.svg",
-                                          "cracks_by_time.svg", "displacement.svg",
-                                          "fragments.svg", "particles.vtp", "bonds.vtp"}));
+                                          "cracks_by_time.svg", "displacement.svg", "fragments.svg",
+                                          "particles.vtp", "bonds.vtp"}));
   std::string all;
   for (const std::string &sentence : written.missing) all += sentence;
   EXPECT_NE(all.find("No force chains"), std::string::npos);
