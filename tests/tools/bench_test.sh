@@ -31,6 +31,14 @@ values=$(sed -E 's/.*step": ([0-9.]+), "bytes_per_bond": ([0-9]+).*/\1 \2/' <<< 
 check "figures are possible: $values" \
   awk '$1 < 1 || $2 < 72 || $2 > 2000 { bad = 1 } END { exit bad }' <<< "$values"
 
+# Every law has its usual coefficients, and others can be given.
+for law in parallel_alone beam/mohr/coulomb norton; do
+  capture bench --json --case=brick --ranks=1 --repeats=1 --seconds=1 --law=$law
+  check "law $law: $out $err" grep -q "\"law\": \"$law\".*ns_per_bond_step" <<< "$out"
+done
+capture bench --json --case=brick --ranks=1 --repeats=1 --seconds=1 --words="5e9 2 1e30 1e30 damping 0.1"
+check "words of one's own: $err" test $status = 0
+
 # The same as a specimen file with ids in another order: the same bonds, so the same memory.
 awk 'BEGIN { print "# brick\n\n1024 atoms\n\nAtoms\n" }
   { printf "%d 1 2e-4 2500 %s %s %s\n", 2000 - NR, $1, $2, $3 }' "$scratch/brick.xyzr" > "$scratch/same.data"
@@ -45,7 +53,8 @@ expect_error 1 "unknown argument '--fast'" -- bench --fast
 expect_error 1 "'0' is not a whole number" -- bench --repeats=0
 expect_error 1 "'two' is not a whole number" -- bench --ranks=1,two
 expect_error 1 "$scratch/none is not there" -- bench --program="$scratch/none"
-capture bench --json --case=brick --ranks=1 --law=no_such_law
+expect_error 1 "don't know the coefficients of 'no_such_law'" -- bench --law=no_such_law
+capture bench --json --case=brick --ranks=1 --law=no_such_law --words="1e9 2 3 4"
 check "an unknown law is an error: $err" grep -q "the engine failed: ERROR.*bond style" <<< "$err"
 check "and prints no case: $out" test -z "$out"
 echo "0 1024" >> "$scratch/brick.bonds"
