@@ -20,11 +20,13 @@ BeamParameters law() {
   return p;
 }
 
-Bench pair_of(bool flat = false) {
+Bench pair_of(bool flat = false, double second = 1e-3, bool at_contact = false) {
   Bench b = beam_bench(flat, 5e-3);
   b.add({0, 0, 0}, 1e-3, 2500);
-  b.add({2e-3, 0, 0}, 1e-3, 2500);
-  beam(b, 0, 1, law());
+  b.add({2e-3, 0, 0}, second, 2500);
+  BeamParameters p = law();
+  p.at_contact = at_contact;
+  beam(b, 0, 1, p);
   return b;
 }
 
@@ -94,11 +96,13 @@ TEST(BeamEnergy, closed_cycle_leaves_nothing_at_large_strain) {
          {Vec3{0.5, 0, 0}, Vec3{0, 0.4, 0}, Vec3{0, 0, 0.5}, Vec3{0.2, -0.3, 0.3}}) {
       if (flat && turn.z != 0.5) continue;
       const Vec3 size{2e-4, 6e-4, flat ? 0.0 : 4e-4};
-      const Cycle coarse = closed_path(pair_of(flat), size, turn, 400);
-      const Cycle fine = closed_path(pair_of(flat), size, turn, 800);
-      EXPECT_GT(fine.peak, 1e-3);
-      EXPECT_LT(std::fabs(fine.work), 1e-4 * fine.peak);
-      EXPECT_LT(std::fabs(4.0 * fine.work - coarse.work), 3e-8 * fine.peak);
+      for (const bool at_contact : {false, true}) {
+        const Cycle coarse = closed_path(pair_of(flat, 0.5e-3, at_contact), size, turn, 400);
+        const Cycle fine = closed_path(pair_of(flat, 0.5e-3, at_contact), size, turn, 800);
+        EXPECT_GT(fine.peak, 1e-3);
+        EXPECT_LT(std::fabs(fine.work), 1e-4 * fine.peak);
+        EXPECT_LT(std::fabs(4.0 * fine.work - coarse.work), 3e-8 * fine.peak);
+      }
     }
 }
 
@@ -253,6 +257,7 @@ TEST(BeamFuzz, no_state_gives_nan_and_no_break_makes_energy) {
     p.cutoff = trial % 4 ? std::pow(10.0, 7 + 2 * u(random)) : 1e300;
     p.friction = trial % 6 ? 0.5 : 0.0;
     p.touching = trial % 13 == 0;
+    p.at_contact = trial % 17 < 8;
     for (Grain &g : b.grains)
       g.q = turned_by(g.q, {flat ? 0 : u(random), flat ? 0 : u(random), u(random)});
     beam(b, 0, 1, p, {trial % 3 ? 0.0 : 1e9, 2.0, 0.5});

@@ -10,17 +10,21 @@
 //     stretch  l - l_0
 //     bend     theta, the angle from n_i to n_j          } the swing and the twist of the rotation
 //     twist    psi, of frame j against frame i about it  } from frame i to frame j, exactly
-//     shear    beta, the angle from e to the mean axis m = (n_i + n_j)/|n_i + n_j|, which for small
-//              angles is the mean of the angles phi_i, phi_j from e to n_i and to n_j
-// (Wang 2009, Acta Geotech. 4, 117-127, decomposes the relative rotation alike; there shear is the
-// angle of n_i against e less theta/2. Taking both ends alike makes it the same from i and from j.)
+//     shear    beta, the angle from e to s = w_i n_i + w_j n_j: for small angles the weighted mean
+//     of
+//              the angles phi_i, phi_j from e to n_i and to n_j
+// The weights, w_i + w_j = 2, say where between the centres shear is measured and its force acts:
+// both 1 in the middle (a beam from centre to centre), 2 R_i/(R_i + R_j) and 2 R_j/(R_i + R_j) at
+// the grains' contact. (Wang 2009, Acta Geotech. 4, 117-127, decomposes the relative rotation
+// alike; there shear is the angle of n_i against e less theta/2, that is measured in the middle,
+// while its force acts at the contact: not reciprocal, and without an energy, if the radii differ.)
 // From a beam's energy
 //     U = k_n (l - l_0)^2/2 + S beta^2/2 + k_b theta^2/2 + k_t psi^2/2,    S = k_s l_0^2
-// the loads are its exact derivatives; no cycle of motions makes energy. With s = n_i + n_j:
+// the loads are its exact derivatives; no cycle of motions makes energy:
 //     force on j   - k_n (l - l_0) e + S B (s - (s.e) e)/l
-//     couple on i  k_b (theta/sin theta) n_i x n_j + k_t psi s/(1 + n_i.n_j),  the opposite on j
-//     torque on i  S B (n_i x e - h n_i x n_j),  on j  S B (n_j x e + h n_i x n_j)
-//     B = beta/|s x e|,  h = (s.e)/|s|^2
+//     couple on i  k_b (theta/sin theta) n_i x n_j + k_t psi (n_i + n_j)/(1 + n_i.n_j), opposite on
+//     j torque on i  S B (w_i n_i x e - h n_i x n_j),  on j  S B (w_j n_j x e + h n_i x n_j) B =
+//     beta/|s x e|,  h = w_i w_j (s.e)/|s|^2
 // Both momenta are kept identically. To first order this is the Timoshenko beam element with
 // k_s = 12 E I/(l^3 (1 + Phi)) and 4 E I/l, 2 E I/l (PHYSICS.md 3.2).
 //
@@ -127,11 +131,13 @@ struct BeamShape3 {
   Vec3 shear_i, shear_j;           // torques over S
 
   // frame_i, frame_j: particle orientation times reference
-  [[gnu::always_inline]] BeamShape3(Vec3 d, Quaternion frame_i, Quaternion frame_j) {
+  [[gnu::always_inline]] BeamShape3(Vec3 d, Quaternion frame_i, Quaternion frame_j,
+                                    double weight_i = 1.0, double weight_j = 1.0) {
     distance = std::sqrt(dot(d, d));
     const double inverse_distance = 1.0 / distance;
     e = inverse_distance * d;
-    const Vec3 ni = first_axis(frame_i), nj = first_axis(frame_j), s = ni + nj;
+    const Vec3 ni = first_axis(frame_i), nj = first_axis(frame_j), sum = ni + nj,
+               s = weight_i * ni + weight_j * nj;
 
     // of frame j seen from frame i: scalar part and component along the first axis
     const Quaternion &a = frame_i, &b = frame_j;
@@ -143,18 +149,20 @@ struct BeamShape3 {
 
     const DoubleAngle half_twist = double_angle(std::fabs(along), std::fabs(scalar));
     twist = (scalar < 0.0 ? -along : along) * half_twist.over;
-    twist_couple = (twist * inverse) * s;
+    twist_couple = (twist * inverse) * sum;
 
     const Vec3 x = cross(ni, nj);
     const DoubleAngle swing = double_angle(std::sqrt(dot(x, x)), one_plus);
     bend = swing.angle;
     bend_couple = swing.over * x;
 
-    const Vec3 wi = cross(ni, e), wj = cross(nj, e), w = wi + wj;
-    const double se = dot(s, e), ahead = std::sqrt(2.0 * one_plus) + se;
+    const Vec3 wi = weight_i * cross(ni, e), wj = weight_j * cross(nj, e), w = wi + wj;
+    const double apart = weight_i - weight_j, both = weight_i * weight_j;
+    const double size2 = apart * apart + 2.0 * both * one_plus;  // |s|^2
+    const double se = dot(s, e), ahead = std::sqrt(size2) + se;
     const DoubleAngle off = double_angle(std::sqrt(dot(w, w)), ahead > 0.0 ? ahead : 0.0);
     shear = off.angle;
-    const double h = 0.5 * se * inverse;
+    const double h = both * se / size2;
     shear_force = (-off.over * inverse_distance) * (s - se * e);
     shear_i = off.over * (wi - h * x);
     shear_j = off.over * (wj + h * x);
@@ -177,10 +185,12 @@ inline BeamReference2 beam_reference(double dx, double dy, double wi, double zi,
 
 struct BeamShape2 {
   double distance, ex, ey;
-  double shear, bend;  // beta, theta
+  double shear, bend;       // beta, theta
+  double share_i, share_j;  // of the shear's torque that goes to i and to j; their sum is 1
 
   [[gnu::always_inline]] BeamShape2(double dx, double dy, double wi, double zi, double wj,
-                                    double zj, const BeamReference2 &r) {
+                                    double zj, const BeamReference2 &r, double weight_i = 1.0,
+                                    double weight_j = 1.0) {
     distance = std::sqrt(dx * dx + dy * dy);
     const double inverse = 1.0 / distance;
     ex = inverse * dx;
@@ -192,9 +202,13 @@ struct BeamShape2 {
     const double turn = ix * jy - iy * jx, close = 1.0 + ix * jx + iy * jy;
     const double one_plus = close > 1e-24 ? close : 1e-24;
     bend = double_angle(std::fabs(turn), one_plus).over * turn;
-    const double sx = ix + jx, sy = iy + jy;
-    const double off = ex * sy - ey * sx, ahead = std::sqrt(2.0 * one_plus) + ex * sx + ey * sy;
+    const double sx = weight_i * ix + weight_j * jx, sy = weight_i * iy + weight_j * jy;
+    const double apart = weight_i - weight_j, both = weight_i * weight_j;
+    const double size2 = apart * apart + 2.0 * both * one_plus;  // |s|^2
+    const double off = ex * sy - ey * sx, ahead = std::sqrt(size2) + ex * sx + ey * sy;
     shear = double_angle(std::fabs(off), ahead > 0.0 ? ahead : 0.0).over * off;
+    share_i = (weight_i * apart + both * one_plus) / size2;  // w_i s.n_i/|s|^2
+    share_j = 1.0 - share_i;
   }
 };
 

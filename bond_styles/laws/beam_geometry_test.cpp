@@ -141,7 +141,8 @@ TEST(BeamStrains, loads_derive_from_one_energy) {
     const Vec3 d = (1.0 + 0.1 * u()) * unit(e0 + 0.3 * size * any_vector());
     const Quaternion frame = frame_along(e0);
     const Quaternion A = turn(size * any_vector()) * frame, B = turn(size * any_vector()) * frame;
-    const BeamShape3 s(d, A, B);
+    const double w = trial % 3 ? 1.0 + 0.9 * u() : 1.0;
+    const BeamShape3 s(d, A, B, w, 2.0 - w);
     const double S = k.shear * rest * rest;
     const Vec3 on_i = k.normal * (s.distance - rest) * s.e + S * s.shear_force;
     const Vec3 couple = k.bend * s.bend_couple + k.twist * s.twist_couple;
@@ -152,14 +153,17 @@ TEST(BeamStrains, loads_derive_from_one_energy) {
       const auto slope = [&](auto &&at) {
         return (8.0 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12.0 * h);
       };
-      EXPECT_NEAR(slope([&](double x) { return energy(BeamShape3(d + x * n, A, B), k, rest); }),
-                  dot(on_i, n), 1e-9);
       EXPECT_NEAR(
-          slope([&](double x) { return energy(BeamShape3(d, turn(x * n) * A, B), k, rest); }),
-          -dot(ti, n), 1e-9);
-      EXPECT_NEAR(
-          slope([&](double x) { return energy(BeamShape3(d, A, turn(x * n) * B), k, rest); }),
-          -dot(tj, n), 1e-9);
+          slope([&](double x) { return energy(BeamShape3(d + x * n, A, B, w, 2.0 - w), k, rest); }),
+          dot(on_i, n), 1e-9);
+      EXPECT_NEAR(slope([&](double x) {
+                    return energy(BeamShape3(d, turn(x * n) * A, B, w, 2.0 - w), k, rest);
+                  }),
+                  -dot(ti, n), 1e-9);
+      EXPECT_NEAR(slope([&](double x) {
+                    return energy(BeamShape3(d, A, turn(x * n) * B, w, 2.0 - w), k, rest);
+                  }),
+                  -dot(tj, n), 1e-9);
     }
     // both momenta
     EXPECT_LT(length(ti + tj - cross(d, on_i)), 2e-15);
@@ -175,14 +179,17 @@ TEST(BeamStrains, plane_strains_are_those_in_space) {
     const Quaternion pi = turn({0, 0, start_a + a}), pj = turn({0, 0, start_b + b});
     const BeamReference3 r = beam_reference({0, 0, 0}, d0, qi, qj);
     const BeamReference2 f = beam_reference(d0.x, d0.y, qi.w, qi.z, qj.w, qj.z);
-    const BeamShape3 s(d, pi * r.i, pj * r.j);
-    const BeamShape2 t(d.x, d.y, pi.w, pi.z, pj.w, pj.z, f);
+    const double w = trial % 3 ? 1.0 + 0.9 * u() : 1.0;
+    const BeamShape3 s(d, pi * r.i, pj * r.j, w, 2.0 - w);
+    const BeamShape2 t(d.x, d.y, pi.w, pi.z, pj.w, pj.z, f, w, 2.0 - w);
     EXPECT_NEAR(t.bend, b - a, 4e-15);
     EXPECT_NEAR(std::fabs(t.bend), s.bend, 1e-14);
     EXPECT_NEAR(std::fabs(t.shear), s.shear, 1e-14);
     EXPECT_LT(std::fabs(s.twist), 4e-15);
     EXPECT_NEAR(-t.shear / t.distance, dot(s.shear_force, Vec3{-t.ey, t.ex, 0}),
                 1e-14 / t.distance);
+    EXPECT_NEAR(-t.shear * t.share_i, s.shear_i.z, 2e-14);
+    EXPECT_NEAR(-t.shear * t.share_j, s.shear_j.z, 2e-14);
   }
 }
 

@@ -8,6 +8,8 @@
 // 4, 117-127 (ESyS-Particle's brittle beam), in the total form of beam_geometry.h, with
 //     R_b = lambda (R_i + R_j)/2,  l_0: distance at bonding, or R_i + R_j (ESyS)
 //     k_n = E_b A/l_0,   k_b = b E_b I/l_0,   k_t = G J/l_0,   G = E_b/(2 (1 + nu_b))
+//     shear in the middle between the centres, or at the grains' contact (ESyS measures in the middle
+//     and applies at the contact; with the latter option here both are at the contact)
 //     k_s = G A/l_0 (`GA`, ESyS)  |  12 E_b I/l_0^3 (`euler`)
 //         | 1/(l_0^3/(12 E_b I) + l_0/(kappa G A)) (`timoshenko`)
 //     3D: A = pi R_b^2, I = pi R_b^4/4, J = pi R_b^4/2,  kappa = 6 (1 + nu)/(7 + 6 nu)
@@ -65,8 +67,14 @@ struct BeamParameters {
   double lambda = 1.0;       // R_b over the mean radius
   double friction = 0.0;     // mu of the contact that replaces the bond
   BeamShear shear = BeamShear::GA;
-  bool touching = false;  // l_0 = R_i + R_j
+  bool touching = false;    // l_0 = R_i + R_j
+  bool at_contact = false;  // shear is measured and acts at the grains' contact, not half-way
 };
+
+// w_i of beam_geometry.h. point: 0 in the middle, 1 at the grains' contact.
+inline double beam_weight(double point, double ri, double rj) {
+  return 1.0 + point * (ri - rj) / (ri + rj);
+}
 
 // k_s/k_n of a beam of radius R_b and length l_0.
 inline double beam_shear_ratio(BeamShear kind, double radius, double length, double poisson,
@@ -127,6 +135,7 @@ struct BeamArrays3 {
   const double *cohesion;  // Pa
   const double *cutoff;    // Pa
   const double *friction;  // of the contact that replaces the bond
+  const double *point;     // 0: shear in the middle, 1: at the grains' contact
   // reference, written once at bonding: BeamReference3 by components
   const double *iw, *ix, *iy, *iz, *jw, *jx, *jy, *jz;
   // state
@@ -138,7 +147,7 @@ struct BeamArrays3 {
 
 struct BeamArrays2 {
   const double *rest, *radius, *modulus, *shear, *bend_factor, *beta1, *tan_phi, *cohesion, *cutoff,
-      *friction;
+      *friction, *point;
   double thickness;                 // m
   const double *ix, *iy, *jx, *jy;  // BeamReference2 by components
   double *alive;

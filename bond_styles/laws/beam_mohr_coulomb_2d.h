@@ -17,7 +17,7 @@ void beam_block_2d(const Kinematics2 &k, const Orientations2 &o, const BeamArray
                            *__restrict modulus = a.modulus, *__restrict shear_b = a.shear,
                            *__restrict factor_b = a.bend_factor, *__restrict beta1 = a.beta1,
                            *__restrict tan_phi = a.tan_phi, *__restrict cohesion = a.cohesion,
-                           *__restrict cutoff = a.cutoff;
+                           *__restrict cutoff = a.cutoff, *__restrict point = a.point;
   const double *__restrict ix = a.ix, *__restrict iy = a.iy, *__restrict jx = a.jx,
                            *__restrict jy = a.jy;
   double *__restrict alive_b = a.alive, *__restrict sigma_b = a.sigma, *__restrict tau_b = a.tau,
@@ -31,8 +31,9 @@ void beam_block_2d(const Kinematics2 &k, const Orientations2 &o, const BeamArray
 
 #pragma GCC ivdep
   for (int b = 0; b < kBlock; ++b) {
+    const double weight = beam_weight(point[b], k.ri[b], k.rj[b]);
     const BeamShape2 p(k.dx[b], k.dy[b], o.iw[b], o.iz[b], o.jw[b], o.jz[b],
-                       BeamReference2{ix[b], iy[b], jx[b], jy[b]});
+                       BeamReference2{ix[b], iy[b], jx[b], jy[b]}, weight, 2.0 - weight);
     const double rest = rest_b[b], radius = radius_b[b];
     BeamStiffness s =
         beam_stiffness_2d(modulus[b], radius, rest, shear_b[b], factor_b[b], thickness);
@@ -75,11 +76,11 @@ void beam_block_2d(const Kinematics2 &k, const Orientations2 &o, const BeamArray
     was_b[b] = was;
     share_b[b] = share;
 
-    const double across = share * fs, couple = share * mb, lever = 0.5 * p.distance * across;
+    const double across = share * fs, couple = share * mb, lever = p.distance * across;
     out.fx[b] = pull * p.ex - across * p.ey;
     out.fy[b] = pull * p.ey + across * p.ex;
-    out.ti[b] = lever + couple;
-    out.tj[b] = lever - couple;
+    out.ti[b] = p.share_i * lever + couple;
+    out.tj[b] = p.share_j * lever - couple;
   }
 
   const double *__restrict reference = c.reference, *__restrict kn_c = c.kn,
@@ -122,7 +123,7 @@ void beam_block_2d(const Kinematics2 &k, const Orientations2 &o, const BeamArray
     }
   }
 
-  // dashpots, one in parallel to each spring; shear about the middle, as the beam's
+  // dashpots, one in parallel to each spring; shear at the same place as the beam's
   if (options) {
     const double *__restrict viscous = opt.viscous;
     double any = 0.0;
@@ -130,7 +131,8 @@ void beam_block_2d(const Kinematics2 &k, const Orientations2 &o, const BeamArray
     if (any > 0.0) {
 #pragma GCC ivdep
       for (int b = 0; b < kBlock; ++b) {
-        const double off = 0.5 - k.rj[b] / (k.ri[b] + k.rj[b]);
+        const double weight = beam_weight(point[b], k.ri[b], k.rj[b]);
+        const double off = 1.0 - 0.5 * weight - k.rj[b] / (k.ri[b] + k.rj[b]);
         const PairStep2 p(k.dx[b], k.dy[b], k.ux[b], k.uy[b], k.s[b] + off * k.q[b]);
         const double x0 = k.dx[b] - k.ux[b], y0 = k.dy[b] - k.uy[b];
         const double du = ((k.dx[b] + x0) * k.ux[b] + (k.dy[b] + y0) * k.uy[b]) /
@@ -143,8 +145,8 @@ void beam_block_2d(const Kinematics2 &k, const Orientations2 &o, const BeamArray
         const double couple = eta * s.bend * k.q[b], lever = 0.5 * p.distance * across;
         out.fx[b] += along * p.ex - across * p.ey;
         out.fy[b] += along * p.ey + across * p.ex;
-        out.ti[b] += lever + couple;
-        out.tj[b] += lever - couple;
+        out.ti[b] += weight * lever + couple;
+        out.tj[b] += (2.0 - weight) * lever - couple;
         if (advance)
           lost_b[b] +=
               eta * (s.normal * du * du + s.shear * p.shear * p.shear + s.bend * k.q[b] * k.q[b]);

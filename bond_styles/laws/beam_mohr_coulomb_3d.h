@@ -20,7 +20,7 @@ void beam_block_3d(const Kinematics3 &k, const Orientations3 &o, const BeamArray
                            *__restrict twist_b = a.twist, *__restrict factor_b = a.bend_factor,
                            *__restrict beta1 = a.beta1, *__restrict beta2 = a.beta2,
                            *__restrict tan_phi = a.tan_phi, *__restrict cohesion = a.cohesion,
-                           *__restrict cutoff = a.cutoff;
+                           *__restrict cutoff = a.cutoff, *__restrict point = a.point;
   const double *__restrict iw = a.iw, *__restrict ix = a.ix, *__restrict iy = a.iy,
                            *__restrict iz = a.iz, *__restrict jw = a.jw, *__restrict jx = a.jx,
                            *__restrict jy = a.jy, *__restrict jz = a.jz;
@@ -34,10 +34,12 @@ void beam_block_3d(const Kinematics3 &k, const Orientations3 &o, const BeamArray
 
 #pragma GCC ivdep
   for (int b = 0; b < kBlock; ++b) {
+    const double weight = beam_weight(point[b], k.ri[b], k.rj[b]);
     const BeamShape3 p(
         {k.dx[b], k.dy[b], k.dz[b]},
         Quaternion{o.iw[b], o.ix[b], o.iy[b], o.iz[b]} * Quaternion{iw[b], ix[b], iy[b], iz[b]},
-        Quaternion{o.jw[b], o.jx[b], o.jy[b], o.jz[b]} * Quaternion{jw[b], jx[b], jy[b], jz[b]});
+        Quaternion{o.jw[b], o.jx[b], o.jy[b], o.jz[b]} * Quaternion{jw[b], jx[b], jy[b], jz[b]},
+        weight, 2.0 - weight);
     const double rest = rest_b[b], radius = radius_b[b];
     BeamStiffness s =
         beam_stiffness_3d(modulus[b], radius, rest, shear_b[b], twist_b[b], factor_b[b]);
@@ -132,7 +134,7 @@ void beam_block_3d(const Kinematics3 &k, const Orientations3 &o, const BeamArray
     }
   }
 
-  // dashpots, one in parallel to each spring; shear about the middle, as the beam's
+  // dashpots, one in parallel to each spring; shear at the same place as the beam's
   if (options) {
     const double *__restrict viscous = opt.viscous;
     double any = 0.0;
@@ -140,7 +142,8 @@ void beam_block_3d(const Kinematics3 &k, const Orientations3 &o, const BeamArray
     if (any > 0.0) {
 #pragma GCC ivdep
       for (int b = 0; b < kBlock; ++b) {
-        const double off = 0.5 - k.rj[b] / (k.ri[b] + k.rj[b]);
+        const double weight = beam_weight(point[b], k.ri[b], k.rj[b]);
+        const double off = 1.0 - 0.5 * weight - k.rj[b] / (k.ri[b] + k.rj[b]);
         const Vec3 d{k.dx[b], k.dy[b], k.dz[b]}, u{k.ux[b], k.uy[b], k.uz[b]}, d0 = d - u;
         const Vec3 q{k.qx[b], k.qy[b], k.qz[b]}, mean = Vec3{k.sx[b], k.sy[b], k.sz[b]} + off * q;
         const PairStep3 p(d, u, mean, q);
@@ -153,11 +156,10 @@ void beam_block_3d(const Kinematics3 &k, const Orientations3 &o, const BeamArray
         const Vec3 force = across + (eta * s.normal * du) * p.e;
         const Vec3 couple = (eta * s.bend) * p.bend + (eta * s.twist * p.twist) * p.e;
         const Vec3 lever = (0.5 * p.distance) * cross(p.e, across);
+        const Vec3 on_i = weight * lever + couple, on_j = (2.0 - weight) * lever - couple;
         out.fx[b] += force.x, out.fy[b] += force.y, out.fz[b] += force.z;
-        out.tix[b] += lever.x + couple.x, out.tiy[b] += lever.y + couple.y;
-        out.tiz[b] += lever.z + couple.z;
-        out.tjx[b] += lever.x - couple.x, out.tjy[b] += lever.y - couple.y;
-        out.tjz[b] += lever.z - couple.z;
+        out.tix[b] += on_i.x, out.tiy[b] += on_i.y, out.tiz[b] += on_i.z;
+        out.tjx[b] += on_j.x, out.tjy[b] += on_j.y, out.tjz[b] += on_j.z;
         if (advance)
           lost_b[b] += eta * (s.normal * du * du + s.shear * dot(p.shear, p.shear) +
                               s.bend * dot(p.bend, p.bend) + s.twist * p.twist * p.twist);

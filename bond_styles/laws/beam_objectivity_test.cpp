@@ -22,7 +22,8 @@ BeamParameters law() {
 
 // A chain of three grains bent, sheared, twisted and stretched, then spun as a rigid body. Largest
 // error of forces and torques in the body's frame, relative to the largest.
-double spin_error(double r2, double gap, Vec3 axis, int steps_a_turn, int turns) {
+double spin_error(double r2, double gap, Vec3 axis, int steps_a_turn, int turns,
+                  bool at_contact = false) {
   Bench b = beam_bench();
   const double r1 = 1e-3;
   std::vector<Vec3> x{{0, 0, 0}};
@@ -31,6 +32,7 @@ double spin_error(double r2, double gap, Vec3 axis, int steps_a_turn, int turns)
   b.add(x[0], r1, 2500), b.add(x[1], r2, 2500), b.add(x[2], r1, 2500);
   BeamParameters p = law();
   p.touching = true;  // prestrained where there is a gap
+  p.at_contact = at_contact;
   beam(b, 0, 1, p), beam(b, 1, 2, p);
   // load it
   b.grains[1].q = turned_by(b.grains[1].q, {1e-3, -2e-3, 0.5e-3});
@@ -74,7 +76,10 @@ TEST(BeamObjectivity, spun_chain_keeps_its_loads_for_100_turns) {
 
 TEST(BeamObjectivity, holds_for_unequal_radii_gaps_and_overlaps) {
   for (const double gap : {-5e-5, 0.0, 5e-5})
-    for (const Vec3 axis : kAxes) EXPECT_LT(spin_error(0.6e-3, gap, axis, 200, 100), 1e-9);
+    for (const Vec3 axis : kAxes) {
+      EXPECT_LT(spin_error(0.6e-3, gap, axis, 200, 100), 1e-9);
+      EXPECT_LT(spin_error(0.6e-3, gap, axis, 200, 100, true), 1e-9);
+    }
 }
 
 // A constant shear load that turns with the bond: the strain under it stays as it is.
@@ -125,6 +130,30 @@ TEST(BeamObjectivity, projection_without_renormalisation_relaxes) {
   }
 }
 
+// Where shear is measured and acts: turning i alone by a shears the bond by a/2, or by a R_i/(R_i +
+// R_j) at the grains' contact, and the force's torque is shared alike. Named after the flaw:
+// ESyS-Particle measures in the middle and applies at the contact, which has no energy if the radii
+// differ.
+TEST(BeamObjectivity, shear_acts_where_it_is_measured_esys) {
+  for (const bool flat : {false, true})
+    for (const bool at_contact : {false, true}) {
+      const double share = at_contact ? 1.0 / 1.4 : 0.5, angle = 1e-6;
+      Bench b = beam_bench(flat, 1e-3);
+      b.add({0, 0, 0}, 1e-3, 2500);
+      b.add({1.4e-3, 0, 0}, 0.4e-3, 2500);
+      BeamParameters p = law();
+      p.at_contact = at_contact;
+      p.bend_factor = 1e-9;  // shear alone
+      PairRow &row = beam(b, 0, 1, p);
+      b.grains[0].q = turned_by(b.grains[0].q, {0, 0, angle});
+      b.load(0.0, false);
+      const double force = BeamLaw::stiffness(b, row).shear * 1.4e-3 * share * angle;
+      EXPECT_NEAR(b.grains[1].f.y / force, 1.0, 1e-6);
+      EXPECT_NEAR(b.grains[0].t.z / (-force * share * 1.4e-3), 1.0, 1e-6);
+      EXPECT_NEAR(b.grains[1].t.z / (-force * (1 - share) * 1.4e-3), 1.0, 1e-6);
+    }
+}
+
 // Named after the flaw: bend and twist from radius-weighted spins (r1 w1 - r2 w2)/r.
 TEST(BeamObjectivity, bend_and_twist_are_plain_differences_of_rotation_richti83) {
   for (const double r2 : {1e-3, 0.5e-3}) {
@@ -154,6 +183,7 @@ TEST(BeamObjectivity, isolated_bond_keeps_linear_and_angular_momentum) {
     }
     BeamParameters p = law();
     p.touching = trial % 2;
+    p.at_contact = trial > 3;
     PairRow &row = beam(b, 0, 1, p, trial % 3 ? ContactSpec{} : ContactSpec{1e9, 2.0, 0.5});
     row.own[kViscous] = 0.3;
     b.load(0.0, false);
@@ -201,6 +231,7 @@ TEST(BeamObjectivity, swapping_the_particles_gives_the_same_forces) {
     Bench c = b;
     BeamParameters p = law();
     p.cohesion = 3e6, p.tan_phi = 0.8, p.cutoff = 3e6, p.friction = 0.5;
+    p.at_contact = trial % 4 > 1;
     PairRow &one = beam(b, 0, 1, p), &two = beam(c, 1, 0, p);
     for (PairRow *row : {&one, &two})
       row->own[kViscous] = 0.2, row->own[kTension] = 0.7, row->own[kFailure] = 2.0;

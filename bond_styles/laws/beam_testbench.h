@@ -28,6 +28,7 @@ enum BeamColumn {
   kCohesion,
   kCutoff,
   kFriction,
+  kPoint,
   kFrame,
   kFrameEnd = kFrame + 7,
   kTension,
@@ -49,9 +50,9 @@ class BeamLaw : public BondLaw {
     double *const *l = c.lane;
     const BeamArrays3 a{l[kRest],      l[kRadius],    l[kModulus],   l[kShear],     l[kTwist],
                         l[kFactor],    l[kBeta1],     l[kBeta2],     l[kTanPhi],    l[kCohesion],
-                        l[kCutoff],    l[kFriction],  l[kFrame],     l[kFrame + 1], l[kFrame + 2],
-                        l[kFrame + 3], l[kFrame + 4], l[kFrame + 5], l[kFrame + 6], l[kFrame + 7],
-                        c.alive,       c.sigma,       c.tau,         c.fate};
+                        l[kCutoff],    l[kFriction],  l[kPoint],     l[kFrame],     l[kFrame + 1],
+                        l[kFrame + 2], l[kFrame + 3], l[kFrame + 4], l[kFrame + 5], l[kFrame + 6],
+                        l[kFrame + 7], c.alive,       c.sigma,       c.tau,         c.fate};
     const OptionArrays q = c.option_arrays();
     if (options)
       advance ? beam_block_3d<true, true>(k, o, a, q, contact, csx, csy, csz, out)
@@ -67,10 +68,11 @@ class BeamLaw : public BondLaw {
              PairLoads2 &out) const override {
     Lanes c(rows);
     double *const *l = c.lane;
-    const BeamArrays2 a{l[kRest],          l[kRadius], l[kModulus],   l[kShear],     l[kFactor],
-                        l[kBeta1],         l[kTanPhi], l[kCohesion],  l[kCutoff],    l[kFriction],
-                        bench.thickness(), l[kFrame],  l[kFrame + 1], l[kFrame + 2], l[kFrame + 3],
-                        c.alive,           c.sigma,    c.tau,         c.fate};
+    const BeamArrays2 a{l[kRest],   l[kRadius],    l[kModulus],   l[kShear],
+                        l[kFactor], l[kBeta1],     l[kTanPhi],    l[kCohesion],
+                        l[kCutoff], l[kFriction],  l[kPoint],     bench.thickness(),
+                        l[kFrame],  l[kFrame + 1], l[kFrame + 2], l[kFrame + 3],
+                        c.alive,    c.sigma,       c.tau,         c.fate};
     const OptionArrays q = c.option_arrays();
     if (options)
       advance ? beam_block_2d<true, true>(k, o, a, q, contact, cs, out)
@@ -96,7 +98,12 @@ class BeamLaw : public BondLaw {
                       Quaternion{i.q[0], i.q[1], i.q[2], i.q[3]} *
                           Quaternion{f[kFrame], f[kFrame + 1], f[kFrame + 2], f[kFrame + 3]},
                       Quaternion{j.q[0], j.q[1], j.q[2], j.q[3]} *
-                          Quaternion{f[kFrame + 4], f[kFrame + 5], f[kFrame + 6], f[kFrame + 7]});
+                          Quaternion{f[kFrame + 4], f[kFrame + 5], f[kFrame + 6], f[kFrame + 7]},
+                      weight(bench, p), 2.0 - weight(bench, p));
+  }
+
+  static double weight(const Bench &bench, const PairRow &p) {
+    return beam_weight(p.own[kPoint], bench.grains[p.i].radius, bench.grains[p.j].radius);
   }
 
   // What the bond carries now, effective (without softening).
@@ -107,7 +114,8 @@ class BeamLaw : public BondLaw {
     double distance, shear, bend, twist = 0.0;
     if (bench.flat()) {
       const BeamShape2 s(j.x.x - i.x.x, j.x.y - i.x.y, i.q[0], i.q[3], j.q[0], j.q[3],
-                         {f[kFrame], f[kFrame + 1], f[kFrame + 2], f[kFrame + 3]});
+                         {f[kFrame], f[kFrame + 1], f[kFrame + 2], f[kFrame + 3]}, weight(bench, p),
+                         2.0 - weight(bench, p));
       distance = s.distance, shear = s.shear, bend = s.bend;
     } else {
       const BeamShape3 s = shape3(bench, p);
@@ -182,7 +190,7 @@ inline PairRow &beam(Bench &b, int i, int j, const BeamParameters &p, const Cont
   o[kTwist] = 0.5 / (1.0 + p.poisson);
   o[kFactor] = p.bend_factor, o[kBeta1] = p.beta1, o[kBeta2] = p.beta2, o[kTanPhi] = p.tan_phi;
   o[kCohesion] = p.cohesion > 0.0 ? p.cohesion : 1e300;
-  o[kCutoff] = p.cutoff, o[kFriction] = p.friction;
+  o[kCutoff] = p.cutoff, o[kFriction] = p.friction, o[kPoint] = p.at_contact;
   o[kTension] = o[kFailure] = 1.0;
   if (b.flat()) {
     const Vec3 d = gj.x - gi.x;

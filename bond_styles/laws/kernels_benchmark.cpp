@@ -155,7 +155,7 @@ void beam_3d(benchmark::State &state) {
   for (int k = 0; k < kBlocks; ++k)
     blocks.push_back({motion(c),
                       {c.around(2e-3, 1e-5), c.of(1e-3), c.of(1e10), c.of(0.4), c.of(0.4), c.of(1.0), c.of(1.0),
-                       c.of(1.0), c.of(1.0), c.of(1e30), c.of(1e300), c.of(0.5), c.of(1.0), c.of(0.0), c.of(0.0),
+                       c.of(1.0), c.of(1.0), c.of(1e30), c.of(1e300), c.of(0.5), c.of(0.0), c.of(1.0), c.of(0.0), c.of(0.0),
                        c.of(0.0), c.of(1.0), c.of(0.0), c.of(0.0), c.of(0.0), c.of(1.0), c.of(0.0), c.of(0.0),
                        c.of(0.0)},
                       contact(c), {c.of(0.0), c.of(0.0), c.of(0.0)}});
