@@ -60,6 +60,12 @@ AtomVecBondedSphere::AtomVecBondedSphere(LAMMPS *lmp)
   size_border = values_per_ghost(false) + 6;
 }
 
+void AtomVecBondedSphere::need_orientations() {
+  send_orientation = 1;
+  size_forward = 3 + 4;
+  comm_x_only = 0;
+}
+
 AtomVecBondedSphere::~AtomVecBondedSphere() {
   memory->destroy(xref);
   memory->destroy(quat);

@@ -44,6 +44,7 @@ class AtomVecBondedSphere : public AtomVec {
   double **xref;     // [nmax][3] reference position, unwrapped, m (own particles)
   double **quat;     // [nmax][4] orientation, unit quaternion (own particles and ghosts)
   int send_orientation;  // 1: ghosts get orientations at every step
+  void need_orientations();  // a bond law does
 
   bondlab::PairTable bonds;     // kept by bond styles
   bondlab::PairTable contacts;  // kept by pair_style grain

@@ -47,7 +47,7 @@ BondBPM::BondBPM(LAMMPS *lmp, const char *name, int law_columns, int constants, 
       place_(constants, -1), seen_generation_(-1), own_columns_(VARYING) {
   writedata = 0;  // coefficients are the deck's, not the data file's
   style_->ask_for_columns(LAW, law_columns, false);
-  if (orientations) style_->send_orientation = 1;
+  if (orientations) style_->need_orientations();
   AtomVecBondedSphere *style = style_;
   style_->bond_gone = [style, this](int row) { return gone(style, atom, comm, domain, row); };
 }
