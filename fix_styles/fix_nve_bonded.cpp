@@ -79,6 +79,7 @@ void FixNVEBonded::initial_integrate(int) {
     if (!(mask[i] & groupbit)) continue;
     for (int d = 0; d < 3; d++) x[3 * i + d] += dt * v[3 * i + d];
   }
+  if (style_->on_grid()) style_->snap_to_grid();
   if (orientation_) turn();
 }
 

@@ -32,6 +32,7 @@ constexpr int kContactColumns = 3;  // shear force
 AtomVecBondedSphere::AtomVecBondedSphere(LAMMPS *lmp)
     : AtomVec(lmp), bonds(0), contacts(kContactColumns), law_columns(0),
       listed_for_output_(false) {
+  grid[0] = grid[1] = grid[2] = 0.0;
   molecular = 1;  // the engine calls the bond style only then
   bonds_allow = 1;
   mass_type = 0;
@@ -114,6 +115,7 @@ void AtomVecBondedSphere::init() {
     if (modify->fix[i]->rad_mass_vary_flag)
       error->all(FLERR, "atom_style bonded/sphere: a fix that changes radii or masses can't be used");
   refuse_listed_bonds();
+  find_grid();
   // index_tables() must run after each rebuild of the ghost shell: a small fix hears of it
   if (modify->find_fix("bonded_sphere_index") < 0) {
     const char *args[] = {"bonded_sphere_index", "all", "bonded/index"};
@@ -297,6 +299,51 @@ void AtomVecBondedSphere::index_tables() {
   // a contact whose partner left the ghost shell is long open
   contacts.remove_if([&](int r) { return where(contacts.lo[r]) < 0 || where(contacts.hi[r]) < 0; });
   contacts.index(atom->nlocal, where, closest);
+}
+
+namespace {
+
+// The grid for coordinates of a direction with these bounds: shifted ones stay below 2^52 units, their own
+// below 2^51, so that snap_to_grid() rounds.
+double grid_of(double lo, double hi) {
+  const double reach = 2.0 * std::max(std::fabs(lo), std::fabs(hi)) + (hi - lo);
+  int exponent;
+  std::frexp(reach, &exponent);
+  return std::ldexp(1.0, exponent - 52);
+}
+
+}  // namespace
+
+void AtomVecBondedSphere::find_grid() {
+  for (int d = 0; d < 3; d++) {
+    const bool used = domain->periodicity[d] && (d < 2 || domain->dimension == 3);
+    grid[d] = used ? grid_of(domain->boxlo[d], domain->boxhi[d]) : 0.0;
+  }
+}
+
+// Adding and taking away 1.5 2^52 units leaves whole units.
+void AtomVecBondedSphere::snap_to_grid() {
+  if (atom->nlocal == 0) return;
+  for (int d = 0; d < 3; d++) {
+    if (grid[d] == 0.0) continue;
+    const double unit = 1.5 * 4503599627370496.0 * grid[d];
+    double *p = x[0] + d;
+    for (int i = 0; i < atom->nlocal; i++) p[3 * i] = (p[3 * i] + unit) - unit;
+  }
+}
+
+void AtomVecBondedSphere::snap_box_to_grid() {
+  find_grid();
+  if (!on_grid()) return;
+  for (int d = 0; d < 3; d++) {
+    if (grid[d] == 0.0) continue;
+    domain->boxlo[d] = grid[d] * std::round(domain->boxlo[d] / grid[d]);
+    domain->boxhi[d] = grid[d] * std::round(domain->boxhi[d] / grid[d]);
+  }
+  domain->set_initial_box();
+  domain->set_global_box();
+  domain->set_local_box();
+  snap_to_grid();
 }
 
 void AtomVecBondedSphere::set_reference_positions() {

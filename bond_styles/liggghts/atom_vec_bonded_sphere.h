@@ -75,6 +75,14 @@ class AtomVecBondedSphere : public AtomVec {
   const bondlab::ParticleRecords &fill_records();
   const bondlab::ParticleRecords &records() const { return records_; }
 
+  // Along periodic directions positions lie on a grid as coarse as the rounding of the box's size. Then
+  // a shift by the box's length is exact, and a pair through a face has the same distance, to the bit,
+  // whichever of the two is the ghost. 0: not periodic.
+  double grid[3];
+  bool on_grid() const { return grid[0] > 0.0 || grid[1] > 0.0 || grid[2] > 0.0; }
+  void snap_to_grid();      // own particles
+  void snap_box_to_grid();  // before ghosts are made
+
   // For write_data: copies the bonds into the engine's lists, from which it writes the `Bonds`
   // section, and empties them.
   void list_bonds();
@@ -125,6 +133,7 @@ class AtomVecBondedSphere : public AtomVec {
   int *slot;  // [nmax] names a particle's rows in both tables
   bool listed_for_output_;
   void refuse_listed_bonds();
+  void find_grid();
   bool stale;
   bondlab::ParticleRecords records_;
   int next_slot() const;

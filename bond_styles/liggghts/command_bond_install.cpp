@@ -147,6 +147,7 @@ bool CommandBondInstall::is_missing(const double *xi, const double *xj, int tag_
 // Ghosts out to `reach`, with neighbour lists initialised as a run would.
 void CommandBondInstall::ghosts(double reach) {
   comm->cutghostuser = std::max(comm->cutghostuser, reach);
+  style_->snap_box_to_grid();
   lmp->init();
   if (domain->triclinic) bad("triclinic boxes are not supported");
   domain->pbc();
