@@ -51,7 +51,7 @@ none "fast-math would remove the checks for not-a-number" < <(
 # Arrows point one way: a room includes only rooms below it; laws and optimiser never meet.
 none "a room includes one above it" < <(
   below=specimen
-  for room in base study forward response misfit design surrogate search refine diagnose report view app; do
+  for room in base study forward response misfit design surrogate search refine rheology diagnose report view app; do
     below="$below|$room"
     [ -d "optimizer/$room" ] || continue
     grep -rnE '^#include "[a-z]+/' "optimizer/$room" | grep -vE "#include \"($below)/"
