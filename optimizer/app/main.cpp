@@ -50,6 +50,8 @@ int main(int argc, char **argv) {
     bondlab::add_report(app);
     bondlab::add_specimen(app);
     bondlab::add_view(app);
+    bondlab::add_diagnose(app);
+    bondlab::add_hide(app);
     refuse_unknown_command(app, argc, argv);
     app.parse(argc, argv);
     return 0;

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Job: `bondlab diagnose STUDY`: is it the parameters or the model, and what is missing.
+//   `bondlab hide STUDY`: make data in which an effect is hidden, to try the other on.
+// Method: see optimizer/diagnose/diagnose.md. Runs are kept in the result's directory, so that the
+//   same command goes on where it was cut off.
+// Units: --size in the effect's own SI unit. Failure: exit status as in commands.h.
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "app/commands.h"
+#include "diagnose/diagnosis_files.h"
+#include "diagnose/hide.h"
+#include "forward/engine_forward_model.h"
+#include "forward/interrupt.h"
+#include "response/check.h"
+#include "study/input_folders.h"
+
+namespace bondlab {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Common {
+  std::string study, out, effects;
+  int jobs = 0;
+};
+
+std::vector<EffectDefinition> effects_from(const std::string &folder) {
+  if (!folder.empty()) return read_effects(folder);
+  for (const auto &inputs : input_folders())
+    if (fs::is_directory(inputs / "effects")) return read_effects(inputs / "effects");
+  throw UserError("--effects: no folder of effects came with this program; name one");
+}
+
+diagnose::ModelFactory engine_on(const Study &study, const fs::path &results, int jobs) {
+  ForwardSettings settings;
+  settings.results = results;
+  settings.engine = find_engine();
+  settings.jobs = jobs > 0 ? jobs : study.options.jobs;
+  return [settings](const Study &expanded) {
+    return std::make_unique<EngineForwardModel>(expanded, settings);
+  };
+}
+
+void add_common(CLI::App &command, Common &common) {
+  command.add_option("STUDY", common.study, "study file (TOML)")->required();
+  command.add_option("--effects", common.effects,
+                     "folder of effects (default: those that came with BondLab)");
+  command.add_option("--jobs", common.jobs, "forward runs at a time")->check(CLI::PositiveNumber);
+}
+
+struct Diagnosing : Common {
+  std::string data;
+  diagnose::StudyDiagnosisOptions options;
+};
+
+void run_diagnose(const Diagnosing &asked) {
+  Study study = read_study(asked.study);
+  check_response_functions(study);
+  if (!asked.data.empty()) study.data = read_data_folder(asked.data);
+  const auto effects = effects_from(asked.effects);
+  const fs::path out = results_directory(asked.out, study.name);
+  catch_interrupts();
+  diagnose::StudySinks sinks;
+  sinks.say = [](const std::string &line) { fmt::print("{}\n", line); };
+  const auto result = diagnose::diagnose_study(study, effects, engine_on(study, out, asked.jobs),
+                                               asked.options, sinks);
+  diagnose::write_diagnosis(study, result, out);
+  fmt::print("\n{}\npage: {}\n", diagnose::diagnosis_text(study, result),
+             (out / "diagnosis.html").string());
+}
+
+struct Hiding : Common {
+  diagnose::HideOptions options;
+};
+
+void run_hide(const Hiding &asked) {
+  const Study study = read_study(asked.study);
+  check_response_functions(study);
+  const auto effects = effects_from(asked.effects);
+  catch_interrupts();
+  // Not in the data folder: what was run would tell what is hidden.
+  const fs::path runs = fs::path(asked.out).lexically_normal().string() + ".runs";
+  diagnose::hide_effect(study, effects, engine_on(study, runs, asked.jobs), asked.options,
+                        asked.out);
+  fmt::print("data: {}\ntruth, not for diagnose: {}\n", asked.out,
+             (fs::path(asked.out) / "sealed_truth.json").string());
+}
+
+}  // namespace
+
+void add_diagnose(CLI::App &app) {
+  CLI::App *command =
+      app.add_subcommand("diagnose", "Is it the parameters or the model? Name what is missing");
+  const auto asked = std::make_shared<Diagnosing>();
+  add_common(*command, *asked);
+  command->add_option("--out", asked->out,
+                      "directory of the results (default: bondlab-results/STUDY-NAME)");
+  command->add_option("--data", asked->data, "data folder instead of the study's own");
+  command->add_option("--holdout", asked->options.holdout,
+                      "series not used until the end, or none (default: the last of three or more)");
+  command->add_option("--packings", asked->options.packings, "packings the model's mean is over")
+      ->check(CLI::Range(1, 100));
+  command->add_option("--scatter", asked->options.scatter, "packings its scatter is measured over")
+      ->check(CLI::Range(3, 1000));
+  command->add_option("--seed", asked->options.seed, "of the null and the resamples");
+  command->callback([asked] { run_diagnose(*asked); });
+}
+
+void add_hide(CLI::App &app) {
+  CLI::App *command =
+      app.add_subcommand("hide", "Make laboratory data in which an effect is hidden");
+  const auto asked = std::make_shared<Hiding>();
+  add_common(*command, *asked);
+  command->add_option("--effect", asked->options.effect, "name of the effect, or none")->required();
+  command->add_option("--size", asked->options.size, "its size, SI");
+  command->add_option("--seed", asked->options.seed, "of parameters, packings and sensors")
+      ->check(CLI::Range(0, 9999));
+  command->add_option("--replicates", asked->options.replicates, "specimens a test")
+      ->check(CLI::Range(2, 99));
+  command->add_option("--out", asked->out, "data folder to write")->required();
+  command->callback([asked] { run_hide(*asked); });
+}
+
+}  // namespace bondlab

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Job: the rows that the diagnosis takes from one curve of a test, the same for a measured curve
+//   and a simulated one.
+// Method: landmarks at shares of the peak load, on the loading branch: toe, slope, before the peak,
+//   peak and the way down, from the columns there are. A curve with axial_stress is a compression
+//   (strain_platen, strain_axial, strain_lateral are used where given), one with force_top and
+//   displacement a test of a load over a travel; another test gives the logarithms of its
+//   responses. Compliances and strengths are logarithms, so that a row's change is a share; toes
+//   and falls are shares, which stay finite where a logarithm does not.
+// Units: SI in; rows have none. Failure: a row that a curve cannot give is NaN.
+#pragma once
+
+#include <Eigen/Dense>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "diagnose/row_key.h"
+#include "forward/curve.h"
+#include "study/test_definition.h"
+
+namespace bondlab::diagnose {
+
+struct CurveQuantity {
+  CurvePart part;
+  std::string name;
+};
+
+// What every curve with these columns gives. `responses` are used when the columns carry no
+// landmarks.
+std::vector<CurveQuantity> quantities_of(const std::vector<std::string> &columns,
+                                         const std::vector<std::string> &responses);
+
+// In the same order.
+Eigen::VectorXd rows_of_curve(const Curve &curve, const std::vector<CurveQuantity> &quantities,
+                              const TestDefinition &test,
+                              const std::map<std::string, double> &variables);
+
+// Loads and stresses times `factor`, as a wrong conversion makes them.
+void scale_loads(Curve &curve, double factor);
+
+}  // namespace bondlab::diagnose

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "diagnose/diagnosis_files.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/units.h"
+#include "base/write_file.h"
+#include "diagnose/model_with_effect.h"
+#include "report/html.h"
+
+namespace bondlab::diagnose {
+
+namespace {
+
+using nlohmann::json;
+
+json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+
+std::string shown(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "-"; }
+
+std::string sentence(const StudyDiagnosis &d) {
+  switch (d.diagnosis.verdict) {
+    case Verdict::one:
+      return "One effect is missing.";
+    case Verdict::set:
+      return "An effect is missing; these data can't separate the following.";
+    case Verdict::two:
+      return "Two effects are missing.";
+    case Verdict::not_in_catalogue:
+      return "Something is missing that is not in the catalogue.";
+    case Verdict::nothing:
+      return "Nothing is missing that these data could show.";
+  }
+  return "";
+}
+
+std::string effect_line(const StudyDiagnosis &d, const NamedEffect &e) {
+  const auto &entry = d.catalogue[e.effect];
+  const auto size = [&](double v) { return format_quantity(v, entry.unit, 3); };
+  return fmt::format("{} ({}): {} {}, 95 % from {} to {}, p {:.2g}, margin {} in chi squared",
+                     entry.name, entry.title, entry.size_name, size(e.size), size(e.low),
+                     size(e.high), e.p, shown(e.margin));
+}
+
+std::vector<SizedEffect> switched_on(const StudyDiagnosis &d) {
+  std::vector<SizedEffect> out;
+  const auto v = d.diagnosis.verdict;
+  if (v == Verdict::nothing || v == Verdict::not_in_catalogue) return out;
+  for (std::size_t k = 0; k < d.sizes.size(); ++k)
+    if (d.sizes[k] != 0) out.push_back({d.effects[k], d.sizes[k]});
+  return out;
+}
+
+const std::vector<double> *first_of(const Curve &c, const std::vector<std::string> &names) {
+  for (const auto &name : names)
+    if (c.has(name)) return &c.column(name);
+  return nullptr;
+}
+
+std::string polyline(const Curve &c, double x_most, double y_most, const char *style) {
+  const auto *x = first_of(c, {"strain_axial", "strain_platen", "displacement"});
+  const auto *y = first_of(c, {"axial_stress", "force_top"});
+  if (!x || !y) return "";
+  std::string points;
+  for (std::size_t i = 0; i < x->size(); ++i)
+    points += fmt::format("{:.1f},{:.1f} ", 40 + 420 * std::clamp((*x)[i] / x_most, 0.0, 1.0),
+                          260 - 240 * std::clamp((*y)[i] / y_most, 0.0, 1.0));
+  return fmt::format("<polyline fill=\"none\" {} points=\"{}\"/>", style, points);
+}
+
+std::string curve_picture(const ShownSeries &s) {
+  double x_most = 0, y_most = 0;
+  const auto widen = [&](const Curve &c) {
+    if (const auto *x = first_of(c, {"strain_axial", "strain_platen", "displacement"}))
+      for (const double v : *x) x_most = std::max(x_most, v);
+    if (const auto *y = first_of(c, {"axial_stress", "force_top"}))
+      for (const double v : *y) y_most = std::max(y_most, v);
+  };
+  for (const auto &c : s.measured) widen(c);
+  widen(s.before), widen(s.after);
+  if (!(x_most > 0) || !(y_most > 0)) return "";
+  std::string svg =
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 480 290\" width=\"480\">"
+      "<path d=\"M40 20V260H460\" stroke=\"#888\" fill=\"none\"/>";
+  for (const auto &c : s.measured)
+    svg += polyline(c, x_most, y_most, "stroke=\"#999\" stroke-width=\"1\"");
+  svg += polyline(s.before, x_most, y_most,
+                  "stroke=\"#c33\" stroke-width=\"2\" stroke-dasharray=\"6 3\"");
+  svg += polyline(s.after, x_most, y_most, "stroke=\"#17a\" stroke-width=\"2\"");
+  svg += fmt::format(
+      "<text x=\"460\" y=\"280\" text-anchor=\"end\" font-size=\"12\">strain or travel, to "
+      "{:.3g}</text><text x=\"44\" y=\"16\" font-size=\"12\">stress or force, to {:.3g}</text></svg>",
+      x_most, y_most);
+  return svg;
+}
+
+std::string residual_rows(const StudyDiagnosis &d) {
+  HtmlTable table("Whitened residual by part of the curve",
+                  {"series", "part", "quantity", ">before", ">after"});
+  for (std::size_t i = 0; i < d.rows.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const auto &r = d.rows[i];
+    const auto cell = [&](const Eigen::VectorXd &v) {
+      return html_number(v(k), fmt::format("{:+.1f}", v(k)));
+    };
+    table.row({html_text(r.series), to_string(r.part), html_text(r.quantity),
+               cell(d.diagnosis.before.residual), cell(d.diagnosis.after.residual)});
+  }
+  return table.html();
+}
+
+}  // namespace
+
+std::string diagnosis_json(const StudyDiagnosis &d) {
+  json out;
+  out["verdict"] = to_string(d.diagnosis.verdict);
+  out["effects"] = json::array();
+  for (const auto &e : d.diagnosis.effects)
+    out["effects"].push_back({{"name", d.catalogue[e.effect].name},
+                              {"size", number(e.size)},
+                              {"interval", {number(e.low), number(e.high)}},
+                              {"p", number(e.p)},
+                              {"margin", number(e.margin)}});
+  out["where"] = json::array();
+  for (const auto &spot : d.diagnosis.where)
+    out["where"].push_back({{"name", spot.name}, {"score", number(spot.score)}});
+  out["advice"] = d.advice;
+  out["gap"] = {{"before", number(d.gap.before)},
+                {"after", number(d.gap.after)},
+                {"holdout_before", number(d.gap.holdout_before)},
+                {"holdout_after", number(d.gap.holdout_after)},
+                {"placebo_after", number(d.gap.placebo_after)},
+                {"noise_floor", number(d.gap.noise_floor)}};
+  return out.dump(2) + "\n";
+}
+
+std::string diagnosis_text(const Study &study, const StudyDiagnosis &d) {
+  const auto &g = d.diagnosis;
+  std::string out = fmt::format("{}: {}\n\nverdict: {}\n{}\n", study.name, study.title,
+                                to_string(g.verdict), sentence(d));
+  for (const auto &e : g.effects) out += "  " + effect_line(d, e) + "\n";
+  out += fmt::format(
+      "  alarm set to {:.0f} % false; p of the whole {:.2g}, of the best trace {:.2g}; margin to "
+      "the best not named {}\n",
+      100 * g.false_alarm, g.p_omnibus, g.p_trace, shown(g.margin));
+  out += "\nwhere it shows:\n";
+  if (g.where.empty()) out += "  nowhere beyond chance\n";
+  for (std::size_t i = 0; i < std::min<std::size_t>(g.where.size(), 8); ++i)
+    out += fmt::format("  {:<48} {:5.1f}\n", g.where[i].name, g.where[i].score);
+  out += "\ngap, noise units a row                before   after\n";
+  for (const auto &s : d.by_series)
+    out += fmt::format("  {:<34} {:>7}  {:>7}{}\n", s.name, shown(s.before), shown(s.after),
+                       s.held_out ? "  held out" : "");
+  out += fmt::format("  {:<34} {:>7}  {:>7}  floor {}, placebo {}\n", "all that was fitted",
+                     shown(d.gap.before), shown(d.gap.after), shown(d.gap.noise_floor),
+                     shown(d.gap.placebo_after));
+  out += fmt::format("  gain in chi squared: {} predicted, {} realised\n", shown(g.predicted_gain),
+                     shown(g.realised_gain));
+  out += "\nparameters                      before                     after\n";
+  for (std::size_t i = 0; i < study.parameters.size(); ++i) {
+    const auto &p = study.parameters[i];
+    const auto quantity = [&](double v, double sd) {
+      return format_quantity(v, p.unit) + " sd " + format_quantity(sd, p.unit, 2);
+    };
+    out += fmt::format("  {:<14} {:<30} {}\n", p.name,
+                       quantity(d.parameters_before[i], d.sd_before[i]),
+                       quantity(d.parameters_after[i], d.sd_after[i]));
+  }
+  out += "\ncan't be told apart well (before any residual was looked at, ten noise units)\n";
+  if (d.isolability.empty()) out += "  none\n";
+  for (const auto &pair : d.isolability)
+    out += fmt::format("  {} / {}: cosine {:.2f}, confused {:.0f} %\n", pair.first, pair.second,
+                       pair.cosine, 100 * pair.chance);
+  for (const auto &name : d.hidden) out += "  " + name + ": not seen by these tests\n";
+  out += "\nsmallest size that would have been seen (90 %)\n";
+  for (std::size_t k = 0; k < g.smallest_size.size(); ++k)
+    out += fmt::format("  {:<26} {}\n", d.catalogue[k].name,
+                       std::isfinite(g.smallest_size[k])
+                           ? format_quantity(g.smallest_size[k], d.catalogue[k].unit, 2)
+                           : "none");
+  for (const auto &note : g.noise.notes) out += "\nnoise: " + note + "\n";
+  for (const auto &line : d.advice) out += "\nadvice: " + line + "\n";
+  out += fmt::format("\nruns asked for: {}\n", d.runs);
+  return out;
+}
+
+std::string diagnosis_page(const Study &study, const StudyDiagnosis &d) {
+  std::string body = fmt::format("<h1>{}: what is missing?</h1>", html_text(study.title));
+  body += html_paragraph(sentence(d));
+  std::vector<std::string> lines;
+  for (const auto &e : d.diagnosis.effects) lines.push_back(effect_line(d, e));
+  if (!lines.empty()) body += html_list(lines);
+  for (const auto &s : d.shown) {
+    const auto picture = curve_picture(s);
+    if (picture.empty()) continue;
+    body += "<h2>" + html_text(s.name) + (s.name == d.holdout ? " (held out)" : "") + "</h2>" +
+            html_paragraph("Grey: measured. Red, dashed: best fit before. Blue: after.") + picture;
+  }
+  body += residual_rows(d);
+  body += "<h2>All figures</h2><pre>" + html_text(diagnosis_text(study, d)) + "</pre>";
+  return "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\"><head><meta "
+         "charset=\"utf-8\"/><title>" +
+         html_text(study.title) +
+         "</title><style>body{font:15px sans-serif;max-width:60em;margin:2em auto}"
+         "table{border-collapse:collapse}td,th{padding:2px 10px;border-bottom:1px solid "
+         "#ddd}</style></head><body>" +
+         body + "</body></html>\n";
+}
+
+void write_diagnosis(const Study &study, const StudyDiagnosis &d,
+                     const std::filesystem::path &out) {
+  make_folder(out);
+  write_file(out / "diagnosis.json", diagnosis_json(d));
+  write_file(out / "diagnosis.txt", diagnosis_text(study, d));
+  write_file(out / "diagnosis.html", diagnosis_page(study, d));
+  const auto effects = switched_on(d);
+  if (effects.empty()) return;
+  const auto changed = study_with_effects(study, effects, d.parameters_after);
+  write_file(out / "model_with_effect.toml", changed);
+  write_file(out / "model.diff", readable_diff(study.source_text, changed));
+}
+
+}  // namespace bondlab::diagnose

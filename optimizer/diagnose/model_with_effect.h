@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Job: the study's own text with the named effects switched on and the refitted parameters as
+//   starts, and the difference as a person reads it.
+// Method: the file is changed line by line, so that its comments and order stay: in every test
+//   whose deck has a variable of the effect, the entry in the test's `variables = { ... }` is
+//   replaced or added; each parameter gets or changes its `start`. Values that the effect derives
+//   from the study's own (add, scale) are worked out from the deck's value. A conversion error has
+//   no deck variable: it is a line of [study] notes for a person.
+// Units: numbers as the deck wants them, without unit. Failure: a test whose variables are not
+//   written on one line gets a line of its own, which TOML may refuse: read_study() tells.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "study/effect_definition.h"
+#include "study/study.h"
+
+namespace bondlab::diagnose {
+
+struct SizedEffect {
+  EffectDefinition effect;
+  double size = 0;  // SI
+};
+
+std::string study_with_effects(const Study &study, const std::vector<SizedEffect> &effects,
+                               const std::vector<double> &parameters);
+
+// Lines removed (-) and added (+) with the line numbers of the first.
+std::string readable_diff(const std::string &before, const std::string &after);
+
+}  // namespace bondlab::diagnose

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Job: the diagnosis of a study from its data to the gap that the named effect closes.
+// Method: scatter over packings at the start -> fit -> scatter at the fitted point -> what the
+//   tests cannot tell apart (isolability, from the model and the plan, no residual used) -> null ->
+//   diagnose() on all series but the one held out -> the gap. The held-out series is fixed before
+//   anything runs: the one named, else the last of three or more, else none. The gap is the root
+//   mean square of the whitened rows, in noise units. The placebo has the trace of the first effect
+//   named with the signs of its rows drawn at random, so that it has the same freedom and size; the
+//   mean over 200 such draws stands.
+// Units: SI. Failure: UserError for names that aren't there; runs that fail are NaN rows.
+// Limits: one effect or pair a call: run it again on the new study for the next.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "diagnose/diagnose.h"
+#include "diagnose/study_evidence.h"
+
+namespace bondlab::diagnose {
+
+struct StudyDiagnosisOptions {
+  int packings = 3;  // the simulation's mean is over these
+  int scatter = 8;   // packings its scatter is measured over
+  std::string holdout;
+  std::uint64_t seed = 1;
+};
+
+struct Gap {  // NaN: not to be had
+  double before = 0, after = 0, holdout_before = 0, holdout_after = 0, placebo_after = 0,
+         noise_floor = 0;
+};
+
+struct SeriesGap {
+  std::string name;
+  bool held_out = false;
+  double before = 0, after = 0;
+};
+
+struct Confusable {
+  std::string first, second;
+  double cosine = 0, chance = 0;  // at ten noise units
+};
+
+struct ShownSeries {
+  std::string name;
+  std::vector<Curve> measured;
+  Curve before, after;  // empty when the run failed
+};
+
+struct StudyDiagnosis {
+  Diagnosis diagnosis;
+  std::vector<EffectDefinition> effects;
+  std::vector<EffectEntry> catalogue;
+  std::string holdout;  // empty: none
+  std::vector<Confusable> isolability;
+  std::vector<std::string> hidden;  // effects that these tests cannot show
+  std::vector<double> parameters_before, parameters_after;
+  std::vector<double> sd_before, sd_after;  // physical, linear
+  std::vector<double> sizes;                // of all effects, after
+  Gap gap;
+  std::vector<SeriesGap> by_series;
+  std::vector<RowKey> rows;  // those diagnosed
+  std::vector<ShownSeries> shown;
+  std::vector<std::string> advice;
+  int runs = 0;
+};
+
+struct StudySinks {
+  std::function<void(const BatchProgress &)> progress;
+  std::function<void(const std::string &)> say;  // a line for a person, as things are known
+};
+
+// Makes the model of the expanded study (with_word_tests).
+using ModelFactory = std::function<std::unique_ptr<ForwardModel>(const Study &)>;
+
+StudyDiagnosis diagnose_study(const Study &study, const std::vector<EffectDefinition> &effects,
+                              const ModelFactory &model, const StudyDiagnosisOptions &options,
+                              const StudySinks &sinks = {});
+
+}  // namespace bondlab::diagnose

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "diagnose/study_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "forward/run_plan.h"
+
+namespace bondlab::diagnose {
+
+namespace {
+
+MeasuredSeries from_curves(const Study &study, const Measurement &measurement) {
+  MeasuredSeries out;
+  out.probed.name = measurement.name;
+  out.probed.test = measurement.test.empty() ? measurement.name : measurement.test;
+  out.conditions = measurement.conditions;
+  const TestEntry &test = study.test(out.probed.test);
+  const auto variables = plan_run(study, {test.name, {}, 0}).numeric;
+  std::vector<std::string> columns = measurement.replicates.front().names;
+  for (const auto &replicate : measurement.replicates)
+    columns.erase(std::remove_if(columns.begin(), columns.end(),
+                                 [&](const std::string &name) {
+                                   return std::find(replicate.names.begin(), replicate.names.end(),
+                                                    name) == replicate.names.end();
+                                 }),
+                  columns.end());
+  std::vector<std::string> responses;
+  for (const auto &[name, response] : test.definition.responses) responses.push_back(name);
+  const auto all = quantities_of(columns, responses);
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(measurement.replicates.size()),
+                       static_cast<Eigen::Index>(all.size()));
+  for (std::size_t i = 0; i < measurement.replicates.size(); ++i) {
+    const auto &replicate = measurement.replicates[i];
+    Curve curve;
+    curve.names = replicate.names, curve.units = replicate.units;
+    curve.columns = replicate.columns;
+    curve.complete = true;
+    rows.row(static_cast<Eigen::Index>(i)) =
+        rows_of_curve(curve, all, test.definition, variables).transpose();
+    out.curves.push_back(std::move(curve));
+  }
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index j = 0; j < rows.cols(); ++j)
+    if (rows.col(j).allFinite()) {
+      kept.push_back(j);
+      out.probed.quantities.push_back(all[static_cast<std::size_t>(j)]);
+    }
+  out.replicates.resize(rows.rows(), static_cast<Eigen::Index>(kept.size()));
+  for (std::size_t j = 0; j < kept.size(); ++j)
+    out.replicates.col(static_cast<Eigen::Index>(j)) = rows.col(kept[j]);
+  return out;
+}
+
+CurvePart part_of(const std::string &function) {
+  if (function.find("peak") != std::string::npos || function.find("strength") != std::string::npos)
+    return CurvePart::peak;
+  return CurvePart::slope;
+}
+
+std::vector<MeasuredSeries> from_targets(const Study &study) {
+  std::vector<MeasuredSeries> out;
+  for (const auto &test : study.tests) {
+    MeasuredSeries series;
+    series.probed.name = series.probed.test = test.name;
+    std::vector<double> value, sd;
+    for (const auto &target : study.targets) {
+      if (target.test != test.name || !(target.value > 0)) continue;
+      series.probed.quantities.push_back(
+          {part_of(test.definition.responses.at(target.response).function),
+           "response " + target.response});
+      value.push_back(std::log(target.value));
+      sd.push_back(target.sd / target.value);
+    }
+    if (value.empty()) continue;
+    const auto count = static_cast<Eigen::Index>(value.size());
+    series.replicates = Eigen::Map<Eigen::RowVectorXd>(value.data(), count);
+    series.stated =
+        Eigen::Map<Eigen::VectorXd>(sd.data(), count).array().square().matrix().asDiagonal();
+    out.push_back(series);
+  }
+  return out;
+}
+
+// Off-diagonal entries by n / (n + rows): few packings say little of them.
+Eigen::MatrixXd shrunk_covariance(const Eigen::MatrixXd &sample) {
+  const Eigen::MatrixXd centred = sample.rowwise() - sample.colwise().mean();
+  const double dof = std::max(1.0, static_cast<double>(sample.rows()) - 1);
+  Eigen::MatrixXd covariance = centred.transpose() * centred / dof;
+  const Eigen::VectorXd diagonal = covariance.diagonal();
+  covariance *= dof / (dof + static_cast<double>(sample.cols()));
+  covariance.diagonal() = diagonal;
+  return covariance;
+}
+
+// Of packings and specimens together, each about its own mean: sensors and an effect that scatters
+// are in the specimens only, and few of either make a covariance.
+Eigen::MatrixXd pooled(const Eigen::MatrixXd &packings, const Eigen::MatrixXd &replicates) {
+  if (replicates.rows() < 2) return shrunk_covariance(packings);
+  const double a = static_cast<double>(packings.rows()) - 1,
+               b = static_cast<double>(replicates.rows()) - 1;
+  // Where specimens scatter more than packings do, row by row, the specimens are right.
+  const Eigen::MatrixXd both = (a * shrunk_covariance(packings) + b * shrunk_covariance(replicates)) / (a + b);
+  Eigen::MatrixXd out = both * ((a + b) / (a + b + static_cast<double>(both.rows())));
+  out.diagonal() = both.diagonal();
+  for (Eigen::Index j = 0; j < out.rows(); ++j) {
+    const Eigen::VectorXd column = replicates.col(j);
+    const double own = (column.array() - column.mean()).square().sum() / b;
+    out(j, j) = std::max(out(j, j), own);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<MeasuredSeries> measured_series(const Study &study) {
+  std::vector<MeasuredSeries> out;
+  if (study.data)
+    for (const auto &measurement : study.data->measurements)
+      out.push_back(from_curves(study, measurement));
+  else
+    out = from_targets(study);
+  out.erase(std::remove_if(out.begin(), out.end(),
+                           [](const MeasuredSeries &s) { return s.probed.quantities.empty(); }),
+            out.end());
+  if (out.empty())
+    throw UserError(Place{study.file.string(), 0, 0},
+                    "nothing was measured that the study's tests compute: give [data] folder or "
+                    "[[targets]]");
+  return out;
+}
+
+void keep_simulated(std::vector<MeasuredSeries> &series, Eigen::MatrixXd &by_packing) {
+  std::vector<Eigen::Index> all_kept;
+  Eigen::Index first = 0;
+  for (auto &s : series) {
+    const auto count = static_cast<Eigen::Index>(s.probed.quantities.size());
+    std::vector<Eigen::Index> kept;
+    std::vector<CurveQuantity> quantities;
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const Eigen::VectorXd column = by_packing.col(first + j);
+      const bool good = column.allFinite() &&
+                        (column.array() - column.mean()).matrix().norm() > 1e-12;
+      if (!good) continue;
+      kept.push_back(j);
+      all_kept.push_back(first + j);
+      quantities.push_back(s.probed.quantities[static_cast<std::size_t>(j)]);
+    }
+    const Eigen::MatrixXd replicates = s.replicates, stated = s.stated;
+    const auto left = static_cast<Eigen::Index>(kept.size());
+    s.replicates.resize(replicates.rows(), left);
+    if (stated.size() > 0) s.stated.resize(left, left);
+    for (Eigen::Index i = 0; i < left; ++i) {
+      s.replicates.col(i) = replicates.col(kept[static_cast<std::size_t>(i)]);
+      for (Eigen::Index j = 0; stated.size() > 0 && j < left; ++j)
+        s.stated(i, j) =
+            stated(kept[static_cast<std::size_t>(i)], kept[static_cast<std::size_t>(j)]);
+    }
+    s.probed.quantities = quantities;
+    first += count;
+  }
+  const Eigen::MatrixXd whole = by_packing;
+  by_packing.resize(whole.rows(), static_cast<Eigen::Index>(all_kept.size()));
+  for (std::size_t j = 0; j < all_kept.size(); ++j)
+    by_packing.col(static_cast<Eigen::Index>(j)) = whole.col(all_kept[j]);
+  series.erase(std::remove_if(series.begin(), series.end(),
+                              [](const MeasuredSeries &s) { return s.probed.quantities.empty(); }),
+               series.end());
+  if (series.empty())
+    throw UserError("no run of the study gave a figure that can be compared with what was measured");
+}
+
+std::vector<ProbedSeries> probed(const std::vector<MeasuredSeries> &series) {
+  std::vector<ProbedSeries> out;
+  for (const auto &s : series) out.push_back(s.probed);
+  return out;
+}
+
+Evidence evidence_of(const Study &study, const std::vector<MeasuredSeries> &series,
+                     const Eigen::MatrixXd &by_packing, std::size_t packings) {
+  Evidence out;
+  for (const auto &s : series) {
+    SeriesEvidence evidence;
+    evidence.name = s.probed.name;
+    evidence.test = study.test(s.probed.test).definition.name;
+    evidence.conditions = s.conditions;
+    evidence.first = static_cast<int>(out.rows.size());
+    evidence.count = static_cast<int>(s.probed.quantities.size());
+    evidence.replicates = s.replicates;
+    evidence.planned = static_cast<int>(s.replicates.rows());
+    const Eigen::MatrixXd covariance =
+        shrunk_covariance(by_packing.middleCols(evidence.first, evidence.count));
+    evidence.stated =
+        s.stated.size() > 0
+            ? s.stated
+            : pooled(by_packing.middleCols(evidence.first, evidence.count), s.replicates);
+    evidence.simulated = covariance / static_cast<double>(packings);
+    for (const auto &q : s.probed.quantities)
+      out.rows.push_back({evidence.test, evidence.name, q.part, q.name});
+    out.series.push_back(std::move(evidence));
+  }
+  return out;
+}
+
+Evidence without_data(Evidence evidence) {
+  for (auto &series : evidence.series) series.replicates.resize(0, 0);
+  return evidence;
+}
+
+}  // namespace bondlab::diagnose

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Job: what a study's laboratory measured, as rows, and the evidence made of it together with the
+//   simulation's own scatter.
+// Method: a data folder's replicates give rows by the code that takes them from simulated curves; a
+//   row that any replicate lacks is left out. Without a folder the study's targets are the rows:
+//   their logarithms, with the sd stated. Specimens are taken to scatter as the simulation's
+//   packings do at the fitted point (measured, with the correlations drawn towards zero as far as
+//   few packings do not carry them), pooled with what the replicates scatter about their own mean,
+//   and at least that in each row; the mean over P packings has a P-th of the packings' covariance.
+// Units: SI in; rows have none. Failure: UserError when nothing of the data can be compared.
+// Limits: with few packings the shape of the covariance is that of its diagonal.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "diagnose/forward_prober.h"
+#include "diagnose/whitening.h"
+
+namespace bondlab::diagnose {
+
+struct MeasuredSeries {
+  ProbedSeries probed;
+  std::map<std::string, double> conditions;
+  Eigen::MatrixXd replicates;  // specimens x quantities
+  Eigen::MatrixXd stated;      // of one specimen; empty: as the packings scatter
+  std::vector<Curve> curves;   // for the page; empty for targets
+};
+
+std::vector<MeasuredSeries> measured_series(const Study &study);
+
+// Leaves out quantities whose simulated rows (packings x rows, all series side by side) are not
+// finite or do not scatter at all.
+void keep_simulated(std::vector<MeasuredSeries> &series, Eigen::MatrixXd &by_packing);
+
+std::vector<ProbedSeries> probed(const std::vector<MeasuredSeries> &series);
+
+// `packings`: over how many the simulation's mean is taken.
+Evidence evidence_of(const Study &study, const std::vector<MeasuredSeries> &series,
+                     const Eigen::MatrixXd &by_packing, std::size_t packings);
+
+// The same before any data: nothing but the plan.
+Evidence without_data(Evidence evidence);
+
+}  // namespace bondlab::diagnose
