@@ -11,7 +11,7 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "diagnose/diagnosis_files.h"
+#include "report/diagnosis_files.h"
 #include "diagnose/hide.h"
 #include "forward/engine_forward_model.h"
 #include "forward/interrupt.h"

@@ -243,8 +243,12 @@ void EngineForwardModel::Batch::forget_lost_run(const RunRecord &run,
   const fs::path folder = settings_.results / run.directory;
   kill_processes_of_run(folder);
   if (run.directory == new_directory) return;  // it had been removed, and its name was free again
-  std::error_code ignored;
-  fs::remove_all(folder, ignored);
+  // a process that is just dying may still put a file where the folder was being emptied
+  for (int attempt = 0; attempt < 50 && fs::exists(folder); ++attempt) {
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+    if (fs::exists(folder)) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
 }
 
 void EngineForwardModel::Batch::start(Job &job) {
