@@ -40,7 +40,7 @@ struct Outcome {
 };
 
 Outcome run(const EngineFolder &folder, const std::string &deck, int ranks) {
-  const EngineResult r = run_deck(folder, deck, ranks, {}, 120.0);
+  const EngineResult r = run_deck(folder, deck, ranks, {}, 300.0);
   EXPECT_TRUE(r.ok()) << r.screen.substr(r.screen.size() > 1500 ? r.screen.size() - 1500 : 0);
   Outcome o{folder.read("end.txt"), folder.read("curve.tsv"), folder.read("broken.tsv"), 0};
   EXPECT_FALSE(o.particles.empty());

@@ -16,7 +16,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 
 std::string run(const std::string &deck, int ranks, const EngineFolder &folder) {
-  const EngineResult r = run_deck(folder, deck, ranks, {}, 120.0);
+  const EngineResult r = run_deck(folder, deck, ranks, {}, 300.0);
   EXPECT_TRUE(r.ok()) << r.screen.substr(r.screen.size() > 1500 ? r.screen.size() - 1500 : 0);
   return folder.read("end.txt");
 }

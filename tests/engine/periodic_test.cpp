@@ -65,7 +65,7 @@ struct Box {
 class Periodic : public testing::TestWithParam<int> {};
 
 std::string run(const std::string &deck, int ranks, const EngineFolder &folder, EngineResult *result = nullptr) {
-  const EngineResult r = run_deck(folder, deck, ranks, {}, 120.0);
+  const EngineResult r = run_deck(folder, deck, ranks, {}, 300.0);
   EXPECT_TRUE(r.ok()) << r.screen.substr(r.screen.size() > 1500 ? r.screen.size() - 1500 : 0);
   if (result) *result = r;
   return folder.read("end.txt");

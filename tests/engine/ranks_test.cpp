@@ -24,7 +24,7 @@ struct Outcome {
 
 Outcome run(const std::string &deck, int ranks) {
   EngineFolder folder;
-  const EngineResult r = run_deck(folder, deck, ranks, {}, 120.0);
+  const EngineResult r = run_deck(folder, deck, ranks, {}, 300.0);
   EXPECT_TRUE(r.ok()) << r.screen.substr(r.screen.size() > 1000 ? r.screen.size() - 1000 : 0);
   Outcome o{folder.read("end.txt"), folder.read("curve.tsv"), folder.read("broken.tsv"), 0};
   EXPECT_FALSE(o.particles.empty());
@@ -59,10 +59,10 @@ std::string breaking(int steps, const std::string &neighbour = "delay 0", double
 }  // namespace
 
 TEST(Ranks, elastic_compression_with_damping_is_the_same_on_1_2_and_4) {
-  const Outcome one = run(elastic(20000), 1);
+  const Outcome one = run(elastic(8000), 1);
   EXPECT_EQ(one.breaks, 0);
-  expect_same(one, run(elastic(20000), 2), "2 ranks");
-  expect_same(one, run(elastic(20000), 4), "4 ranks");
+  expect_same(one, run(elastic(8000), 2), "2 ranks");
+  expect_same(one, run(elastic(8000), 4), "4 ranks");
 }
 
 TEST(Ranks, breaking_and_sliding_is_the_same_on_1_2_and_4) {

@@ -43,7 +43,7 @@ struct End {
 };
 
 End run(EngineFolder &folder, const std::string &deck, int ranks) {
-  const EngineResult r = run_deck(folder, deck, ranks, {}, 120.0);
+  const EngineResult r = run_deck(folder, deck, ranks, {}, 300.0);
   EXPECT_TRUE(r.ok()) << r.screen.substr(r.screen.size() > 1500 ? r.screen.size() - 1500 : 0);
   End e;
   e.particles = folder.read("end.txt");
