@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "base/units.h"
@@ -58,6 +59,11 @@ std::string with_entry(const std::string &line, const std::string &name, const s
   return line.substr(0, last + 1) + comma + name + " = " + value + " " + line.substr(end);
 }
 
+std::string without_element(const std::string &line, const std::string &name) {
+  return std::regex_replace(line, std::regex("\"" + name + "\"\\s*,\\s*|\\s*,\\s*\"" + name + "\""),
+                            "");
+}
+
 std::string key_of_line(const std::string &line) {
   static const std::regex key("^\\s*([A-Za-z_]+)\\s*=");
   std::smatch match;
@@ -93,13 +99,18 @@ std::string study_with_effects(const Study &study, const std::vector<SizedEffect
                                const std::vector<double> &parameters) {
   auto lines = lines_of(study.source_text);
   auto blocks = blocks_of(lines);
+  std::set<std::string> taken;  // variables that the effects set: a parameter can't set them too
+  for (const auto &test : study.tests)
+    for (const auto &[variable, value] : settings_for(study, test, effects, parameters))
+      taken.insert(variable);
   std::reverse(blocks.begin(), blocks.end());  // from the end: insertions don't move what follows
   for (const auto &block : blocks) {
-    std::size_t name_line = 0, wanted_line = 0;
+    std::size_t name_line = 0, wanted_line = 0, sets_line = 0;
     const std::string wanted = block.kind == "tests" ? "variables" : "start";
     for (std::size_t i = block.first + 1; i < block.last; ++i) {
       if (key_of_line(lines[i]) == "name") name_line = i;
       if (key_of_line(lines[i]) == wanted) wanted_line = i;
+      if (key_of_line(lines[i]) == "sets") sets_line = i;
     }
     if (name_line == 0) continue;
     const std::string name = quoted_value(lines[name_line]);
@@ -116,6 +127,9 @@ std::string study_with_effects(const Study &study, const std::vector<SizedEffect
     } else if (block.kind == "parameters") {
       for (std::size_t k = 0; k < study.parameters.size(); ++k) {
         if (study.parameters[k].name != name) continue;
+        for (const auto &variable : study.parameters[k].sets)
+          if (sets_line > 0 && taken.count(variable) > 0)
+            lines[sets_line] = without_element(lines[sets_line], variable);
         const std::string line = fmt::format(
             "start = \"{}\"", format_quantity(parameters[k], study.parameters[k].unit, 9));
         if (wanted_line > 0)

@@ -5,10 +5,13 @@
 // Method: the file is changed line by line, so that its comments and order stay: in every test
 //   whose deck has a variable of the effect, the entry in the test's `variables = { ... }` is
 //   replaced or added; each parameter gets or changes its `start`. Values that the effect derives
-//   from the study's own (add, scale) are worked out from the deck's value. A conversion error has
-//   no deck variable: it is a line of [study] notes for a person.
+//   from the study's own (add, scale) are worked out from the deck's value. A variable that an
+//   effect sets leaves the `sets` of its parameter, since a study can't fix and fit it at once: it
+//   stands at its value of now when the others are fitted again. A conversion error has no deck
+//   variable: it is a comment at the end, for a person.
 // Units: numbers as the deck wants them, without unit. Failure: a test whose variables are not
-//   written on one line gets a line of its own, which TOML may refuse: read_study() tells.
+//   written on one line gets a line of its own, which TOML may refuse, and a parameter whose only
+//   variable an effect sets keeps it: read_study() tells of both.
 #pragma once
 
 #include <string>
