@@ -38,10 +38,12 @@ struct Landmarks {
   double toe(const Column &channel, double share) const {
     return between(channel, 0, share) / std::max(least_strain, between(channel, 0.3, 0.6));
   }
-  // Way from the peak until the load has fallen to a share, over the way to the peak.
+  // Way from the peak until the load has fallen to a share, over the way to the peak; a curve that
+  // ends before has none.
   double fall(const Column &channel, double share) const {
     std::size_t i = peak;
     while (i + 1 < load.size() && load[i] > share * load[peak]) ++i;
+    if (load[i] > share * load[peak]) return none;
     return (channel[i] - channel[peak]) / std::max(least_strain, channel[peak] - channel.front());
   }
 };
