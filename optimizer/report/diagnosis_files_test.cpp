@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "diagnose/diagnosis_files.h"
+#include "report/diagnosis_files.h"
 
 #include <gtest/gtest.h>
 
