@@ -31,6 +31,8 @@ values=$(sed -E 's/.*step": ([0-9.]+), "bytes_per_bond": ([0-9]+).*/\1 \2/' <<< 
 check "figures are possible: $values" \
   awk '$1 < 1 || $2 < 72 || $2 > 2000 { bad = 1 } END { exit bad }' <<< "$values"
 
+first=$(sed -n 's/.*"ranks": 1,.*bytes_per_bond": //p' <<< "$out")
+
 # Every law has its usual coefficients, and others can be given.
 for law in parallel_alone beam/mohr/coulomb norton; do
   capture bench --json --case=brick --ranks=1 --repeats=1 --seconds=1 --law=$law
@@ -43,7 +45,6 @@ check "words of one's own: $err" test $status = 0
 awk 'BEGIN { print "# brick\n\n1024 atoms\n\nAtoms\n" }
   { printf "%d 1 2e-4 2500 %s %s %s\n", 2000 - NR, $1, $2, $3 }' "$scratch/brick.xyzr" > "$scratch/same.data"
 { echo "# pairs"; awk '{ print 1999 - $1, 1999 - $2 }' "$scratch/brick.bonds"; } > "$scratch/same.bonds"
-first=$(sed -n 's/.*"ranks": 1,.*bytes_per_bond": //p' <<< "$out")
 capture bench --json --case=same --ranks=1 --repeats=1 --seconds=1
 check "a specimen file gives the same: $out $err" grep -q \
   "\"particles\": 1024, \"bonds\": 2752, .*bytes_per_bond\": $first" <<< "$out"
