@@ -14,13 +14,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> rules = {"add", "set", "inverse", "scale", "scale_inverse"};
+const std::vector<std::string> rules = {"add", "set", "inverse", "scale", "scale_inverse", "fixed"};
 
 SetRule rule_from(const std::string &name) {
   if (name == "set") return SetRule::set;
   if (name == "inverse") return SetRule::inverse;
   if (name == "scale") return SetRule::scale;
   if (name == "scale_inverse") return SetRule::scale_inverse;
+  if (name == "fixed") return SetRule::fixed;
   return SetRule::add;
 }
 
@@ -54,9 +55,29 @@ void read_settings(TomlTable &top, EffectDefinition &effect) {
       setting.word = table.text("word", true);
     } else {
       setting.rule = rule_from(table.choice("rule", rules));
+      if (setting.rule == SetRule::fixed) {
+        const auto unit = read_unit(table, false);
+        setting.value = table.quantity_if(unit, "value", true).value_or(0);
+      }
     }
     table.finish();
     effect.sets.push_back(setting);
+  }
+}
+
+void read_measuring_errors(TomlTable &top, EffectDefinition &effect) {
+  for (const toml::table *node : top.tables("measures")) {
+    TomlTable table(*node, "[[measures]]", top.file(), top.errors());
+    MeasuringError error;
+    error.place = table.place();
+    error.columns = table.text("columns", true);
+    error.test = table.text("test");
+    const std::string rule = table.choice("rule", {"scale", "saturate", "drift"}, true);
+    error.rule = rule == "saturate" ? MeasuringRule::saturate
+                 : rule == "drift"  ? MeasuringRule::drift
+                                    : MeasuringRule::scale;
+    table.finish();
+    effect.measures.push_back(error);
   }
 }
 
@@ -85,8 +106,9 @@ EffectDefinition read_effect(const fs::path &file, ErrorCollector &errors) {
   effect.scales_test = top.text("scales_test");
   read_size(top, effect);
   read_settings(top, effect);
-  if (effect.sets.empty() && effect.scales_test.empty())
-    errors.add(effect.place, "the effect changes nothing: give [[sets]] or scales_test");
+  read_measuring_errors(top, effect);
+  if (effect.sets.empty() && effect.scales_test.empty() && effect.measures.empty())
+    errors.add(effect.place, "the effect changes nothing: give [[sets]], scales_test or [[measures]]");
   if (!effect.name.empty() && effect.name != file.stem().string())
     top.error("name", "the file must have the effect's name: '" + effect.name + ".toml'");
   top.finish();
@@ -138,6 +160,9 @@ std::map<std::string, double> with_effect(const EffectDefinition &effect, double
         break;
       case SetRule::scale_inverse:
         it->second /= 1 + size;
+        break;
+      case SetRule::fixed:
+        it->second = setting.value;
         break;
       case SetRule::word:
         break;

@@ -27,13 +27,29 @@ enum class SetRule {
   add,            // b + s
   scale,          // b (1 + s)
   scale_inverse,  // b / (1 + s)
+  fixed,          // a number that goes with the effect, whatever the size
   word            // a word, whatever the size
 };
 
 struct EffectSetting {
   std::string variable;
   SetRule rule = SetRule::add;
+  double value = 0;  // of `fixed`, SI
   std::string word;
+  Place place;
+};
+
+// What an error of measuring makes of a measured column; no deck variable does.
+enum class MeasuringRule {
+  scale,     // v (1 + s)
+  saturate,  // never above (1 - s) of the largest of all specimens of the series
+  drift      // v (1 + s r), r from 0 to 1 over the specimens in the order they were tested
+};
+
+struct MeasuringError {
+  std::string columns;  // a column's name, or "loads": every stress and force
+  std::string test;     // kind of test; empty: all
+  MeasuringRule rule = MeasuringRule::scale;
   Place place;
 };
 
@@ -44,6 +60,7 @@ struct EffectDefinition {
   double switch_on = 0, lowest = 0, largest = 0;  // SI
   std::vector<EffectSetting> sets;                // deck variables
   std::string scales_test;                        // kind of test whose stresses it scales by 1 + s
+  std::vector<MeasuringError> measures;           // for data made by `bondlab hide`
   std::vector<std::string> expected;              // "uniaxial_compression: post-peak, up"
   std::vector<std::string> confused_with;         // names of effects
   std::string separating_test;                    // in words

@@ -96,6 +96,30 @@ TEST_F(Effects, EveryRuleDoesWhatItSays) {
   }
 }
 
+TEST_F(Effects, ANumberThatGoesWithTheEffectIsSetWhateverTheSizeAndOnlyWithIt) {
+  write("own", changed("rule = \"add\"", "rule = \"fixed\"\nunit = \"MPa\"\nvalue = \"3 MPa\""));
+  const auto effect = read_effects(folder_)[0];
+  bool touched = false;
+  for (const double size : {0.1, 0.7})
+    EXPECT_DOUBLE_EQ(with_effect(effect, size, {{"platen_mu", 1}}, touched).at("platen_mu"), 3e6);
+  EXPECT_DOUBLE_EQ(with_effect(effect, 0, {{"platen_mu", 1}}, touched).at("platen_mu"), 1);
+  write("own", changed("rule = \"add\"", "rule = \"fixed\""));
+  EXPECT_NE(complaint().find("value"), std::string::npos) << complaint();
+}
+
+TEST_F(Effects, AnErrorOfMeasuringNeedsNoDeckVariable) {
+  write("own", changed("[[sets]]\nvariable = \"platen_mu\"\nrule = \"add\"\n",
+                       "[[measures]]\ncolumns = \"loads\"\ntest = \"brazilian\"\nrule = \"drift\"\n"));
+  const auto effects = read_effects(folder_);
+  ASSERT_EQ(effects[0].measures.size(), 1u);
+  EXPECT_EQ(effects[0].measures[0].columns, "loads");
+  EXPECT_EQ(effects[0].measures[0].test, "brazilian");
+  EXPECT_EQ(effects[0].measures[0].rule, MeasuringRule::drift);
+  write("own", changed("[[sets]]\nvariable = \"platen_mu\"\nrule = \"add\"\n",
+                       "[[measures]]\ncolumns = \"loads\"\nrule = \"wander\"\n"));
+  EXPECT_NE(complaint().find("saturate"), std::string::npos) << complaint();
+}
+
 TEST_F(Effects, ErrorsNameFileLineAndWhatIsAllowed) {
   const std::vector<std::array<std::string, 3>> cases = {
       {"kind = \"machine\"", "kind = \"magic\"", "own.toml:4"},
@@ -123,8 +147,18 @@ TEST(ShippedEffects, SetVariablesThatDecksHave) {
   for (const auto &entry : fs::directory_iterator(inputs))
     if (fs::exists(entry.path() / "test.toml"))
       tests.push_back(read_test_definition(entry.path(), errors));
-  const auto effects = read_effects(inputs / "effects");
-  EXPECT_GE(effects.size(), 14u);
+  auto effects = read_effects(inputs / "effects");
+  EXPECT_GE(effects.size(), 18u);
+  const auto outside = read_effects(inputs / "hidden" / "outside");
+  EXPECT_GE(outside.size(), 5u);
+  for (const auto &effect : outside) {
+    for (const auto &inside : effects) EXPECT_NE(effect.name, inside.name);
+    for (const auto &error : effect.measures)
+      EXPECT_TRUE(error.test.empty() || std::any_of(tests.begin(), tests.end(),
+                                                    [&](const auto &t) { return t.name == error.test; }))
+          << effect.name << ": " << error.test;
+  }
+  effects.insert(effects.end(), outside.begin(), outside.end());
   for (const auto &effect : effects) {
     for (const auto &setting : effect.sets) {
       const bool known = std::any_of(tests.begin(), tests.end(), [&](const TestDefinition &t) {
