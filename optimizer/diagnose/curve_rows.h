@@ -3,11 +3,16 @@
 // Job: the rows that the diagnosis takes from one curve of a test, the same for a measured curve
 //   and a simulated one.
 // Method: landmarks at shares of the peak load, on the loading branch: toe, slope, before the peak,
-//   peak and the way down, from the columns there are. A curve with axial_stress is a compression
-//   (strain_platen, strain_axial, strain_lateral are used where given), one with force_top and
-//   displacement a test of a load over a travel; another test gives the logarithms of its
-//   responses. Compliances and strengths are logarithms, so that a row's change is a share; toes
-//   and falls are shares, which stay finite where a logarithm does not.
+//   peak, the way down and what is carried in the end, from the columns there are. A curve with
+//   axial_stress is a compression or tension (strain_machine or else strain_platen, strain_axial,
+//   strain_lateral are used where given), one with force_top a test of a load over a travel (machine
+//   or else displacement; deflection is a beam's gauge); another test gives the logarithms of its
+//   responses. Compliances, strengths and falls are logarithms, so that a row's change is a share;
+//   toes and what is carried in the end are shares, which stay finite where a logarithm does not.
+//   A column `phase` (fix drive's: 2 holds the displacement, 3 the load, 4 unloads) tells of a
+//   programme. A curve that turns under load gives the compliance up to the first turn, the first
+//   unloading's stiffness over that of loading and the strain it leaves, what the first holds gain
+//   and lose, and its peak; the other rows would straddle the turns.
 // Units: SI in; rows have none. Failure: a row that a curve cannot give is NaN.
 #pragma once
 
