@@ -25,15 +25,31 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Common {
-  std::string study, out, effects;
+  std::string study, out;
+  std::vector<std::string> effects;  // folders
   int jobs = 0;
 };
 
-std::vector<EffectDefinition> effects_from(const std::string &folder) {
-  if (!folder.empty()) return read_effects(folder);
+// `came` are the folders below inputs/ that are read when none is named.
+std::vector<EffectDefinition> effects_from(const std::vector<std::string> &named,
+                                           const std::vector<fs::path> &came) {
+  std::vector<fs::path> folders(named.begin(), named.end());
   for (const auto &inputs : input_folders())
-    if (fs::is_directory(inputs / "effects")) return read_effects(inputs / "effects");
-  throw UserError("--effects: no folder of effects came with this program; name one");
+    for (const auto &folder : came)
+      if (folders.size() < came.size() && named.empty() && fs::is_directory(inputs / folder))
+        folders.push_back(inputs / folder);
+  if (folders.empty())
+    throw UserError("--effects: no folder of effects came with this program; name one");
+  std::vector<EffectDefinition> effects;
+  for (const auto &folder : folders)
+    for (auto &effect : read_effects(folder)) {
+      for (const auto &other : effects)
+        if (other.name == effect.name)
+          throw UserError(effect.place, "effect '" + effect.name + "' is also in " +
+                                            other.place.file);
+      effects.push_back(std::move(effect));
+    }
+  return effects;
 }
 
 diagnose::ModelFactory engine_on(const Study &study, const fs::path &results, int jobs) {
@@ -49,7 +65,7 @@ diagnose::ModelFactory engine_on(const Study &study, const fs::path &results, in
 void add_common(CLI::App &command, Common &common) {
   command.add_option("STUDY", common.study, "study file (TOML)")->required();
   command.add_option("--effects", common.effects,
-                     "folder of effects (default: those that came with BondLab)");
+                     "folder of effects, may be given again (default: those that came with BondLab)");
   command.add_option("--jobs", common.jobs, "forward runs at a time")->check(CLI::PositiveNumber);
 }
 
@@ -62,7 +78,7 @@ void run_diagnose(const Diagnosing &asked) {
   Study study = read_study(asked.study);
   check_response_functions(study);
   if (!asked.data.empty()) study.data = read_data_folder(asked.data);
-  const auto effects = effects_from(asked.effects);
+  const auto effects = effects_from(asked.effects, {"effects"});
   const fs::path out = results_directory(asked.out, study.name);
   catch_interrupts();
   diagnose::StudySinks sinks;
@@ -78,10 +94,12 @@ struct Hiding : Common {
   diagnose::HideOptions options;
 };
 
-void run_hide(const Hiding &asked) {
+void run_hide(Hiding asked) {
+  if (asked.options.effects == std::vector<std::string>{"none"}) asked.options.effects.clear();
+  if (asked.options.effects.empty()) asked.options.sizes.clear();
   const Study study = read_study(asked.study);
   check_response_functions(study);
-  const auto effects = effects_from(asked.effects);
+  const auto effects = effects_from(asked.effects, {"effects", "hidden/outside"});
   catch_interrupts();
   // Not in the data folder: what was run would tell what is hidden.
   const fs::path runs = fs::path(asked.out).lexically_normal().string() + ".runs";
@@ -116,8 +134,16 @@ void add_hide(CLI::App &app) {
       app.add_subcommand("hide", "Make laboratory data in which an effect is hidden");
   const auto asked = std::make_shared<Hiding>();
   add_common(*command, *asked);
-  command->add_option("--effect", asked->options.effect, "name of the effect, or none")->required();
-  command->add_option("--size", asked->options.size, "its size, SI");
+  command
+      ->add_option("--effect", asked->options.effects,
+                   "name of the effect, or of two with a comma between, or none")
+      ->delimiter(',')
+      ->required();
+  command->add_option("--size", asked->options.sizes, "size of each, SI")->delimiter(',');
+  command
+      ->add_option("--spread", asked->options.spread,
+                   "sd of the parameters about the study's starts, on the scale of the fit")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--seed", asked->options.seed, "of parameters, packings and sensors")
       ->check(CLI::Range(0, 9999));
   command->add_option("--replicates", asked->options.replicates, "specimens a test")

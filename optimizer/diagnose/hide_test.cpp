@@ -20,8 +20,8 @@ using nlohmann::json;
 class Hide : public ::testing::Test {
  protected:
   Hide() {
-    options.effect = "compression_conversion";
-    options.size = 0.5;
+    options.effects = {"compression_conversion"};
+    options.sizes = {0.5};
     options.replicates = 3;
     options.spread = 0;
     factory = [this](const Study &) {
@@ -73,8 +73,9 @@ TEST_F(Hide, SealsTheTruthBesideTheDataAndNotInThem) {
   hide(out);
   const auto files = files_in(out);
   const json sealed = json::parse(files.at("sealed_truth.json"));
-  EXPECT_EQ(sealed["effect"], options.effect);
-  EXPECT_EQ(sealed["size"], options.size);
+  ASSERT_EQ(sealed["effects"].size(), 1u);
+  EXPECT_EQ(sealed["effects"][0]["name"], options.effects[0]);
+  EXPECT_EQ(sealed["effects"][0]["size"], options.sizes[0]);
   EXPECT_EQ(sealed["seed"], options.seed);
   const auto start = ParameterSpace(study.parameters).start().x;
   for (std::size_t i = 0; i < study.parameters.size(); ++i) {
@@ -86,23 +87,23 @@ TEST_F(Hide, SealsTheTruthBesideTheDataAndNotInThem) {
   }
   for (const auto &[name, text] : files)
     if (name != "sealed_truth.json") {
-      EXPECT_EQ(text.find(options.effect), std::string::npos) << name;
+      EXPECT_EQ(text.find(options.effects[0]), std::string::npos) << name;
     }
 }
 
 TEST_F(Hide, TheEffectIsInTheDataOfItsTestOnly) {
   const TestFolder with, without;
   hide(with);
-  options.effect = "none";
+  options.effects.clear(), options.sizes.clear();
   hide(without);
   const auto a = read_data_folder(with.path()), b = read_data_folder(without.path());
   for (std::size_t r = 0; r < 3; ++r)
     EXPECT_NEAR(peak(a.measurements[0].replicates[r], "axial_stress"),
                 1.5 * peak(b.measurements[0].replicates[r], "axial_stress"), 1);
-  EXPECT_EQ(files_in(with).at("brazilian_1.csv"), files_in(without).at("brazilian_1.csv"));
+  EXPECT_NEAR(peak(a.measurements[1].replicates[0], "force_top"),
+              peak(b.measurements[1].replicates[0], "force_top"), 1e-9);
   const json sealed = json::parse(files_in(without).at("sealed_truth.json"));
-  EXPECT_EQ(sealed["effect"], "none");
-  EXPECT_EQ(sealed["size"], 0);
+  EXPECT_TRUE(sealed["effects"].empty());
 }
 
 TEST_F(Hide, TheSameSeedGivesTheSameBytes) {
@@ -127,7 +128,7 @@ TEST_F(Hide, AnotherSeedGivesOtherNoiseOfASizeThatSensorsHave) {
 
 TEST_F(Hide, AnEffectThatNoTestShowsIsRefusedWithTheNamesThatAre) {
   const TestFolder out;
-  options.effect = "gravity_of_the_moon";
+  options.effects = {"gravity_of_the_moon"};
   try {
     hide(out);
     FAIL() << "not refused";
@@ -136,6 +137,56 @@ TEST_F(Hide, AnEffectThatNoTestShowsIsRefusedWithTheNamesThatAre) {
     EXPECT_NE(what.find("gravity_of_the_moon"), std::string::npos);
     EXPECT_NE(what.find("bond_gap"), std::string::npos);
   }
+}
+
+TEST_F(Hide, TwoEffectsAreBothInTheData) {
+  const TestFolder with, without;
+  options.effects = {"compression_conversion", "brazilian_conversion"};
+  options.sizes = {0.5, -0.2};
+  hide(with);
+  options.effects.clear(), options.sizes.clear();
+  hide(without);
+  const auto a = read_data_folder(with.path()), b = read_data_folder(without.path());
+  EXPECT_NEAR(peak(a.measurements[0].replicates[0], "axial_stress"),
+              1.5 * peak(b.measurements[0].replicates[0], "axial_stress"), 1);
+  EXPECT_NEAR(peak(a.measurements[1].replicates[0], "force_top"),
+              0.8 * peak(b.measurements[1].replicates[0], "force_top"), 1);
+  EXPECT_EQ(json::parse(files_in(with).at("sealed_truth.json"))["effects"].size(), 2u);
+}
+
+TEST_F(Hide, ASizeForEachEffectIsAskedFor) {
+  const TestFolder out;
+  options.sizes.push_back(0.1);
+  EXPECT_THROW(hide(out), UserError);
+}
+
+TEST_F(Hide, AnErrorOfMeasuringOutsideTheCatalogueIsInTheDataOfItsTestOnly) {
+  const TestFolder with, without;
+  for (auto &effect : read_effects(inputs / "hidden" / "outside")) effects.push_back(effect);
+  options.effects = {"load_cell_end"};
+  options.sizes = {0.2};
+  hide(with);
+  options.effects.clear(), options.sizes.clear();
+  hide(without);
+  const auto a = read_data_folder(with.path()), b = read_data_folder(without.path());
+  EXPECT_NEAR(peak(a.measurements[0].replicates[0], "axial_stress"),
+              0.8 * peak(b.measurements[0].replicates[0], "axial_stress"),
+              0.01 * peak(b.measurements[0].replicates[0], "axial_stress"));
+  EXPECT_EQ(files_in(with).at("brazilian_1.csv"), files_in(without).at("brazilian_1.csv"));
+}
+
+TEST_F(Hide, ConditionsAreThoseThatTheStudyAsksForWhateverIsHidden) {
+  const TestFolder with, without;
+  options.effects = {"virtual_rate"};
+  options.sizes = {2};
+  hide(with);
+  options.effects.clear(), options.sizes.clear();
+  hide(without);
+  const auto a = read_data_folder(with.path()), b = read_data_folder(without.path());
+  for (std::size_t t = 0; t < a.measurements.size(); ++t)
+    EXPECT_EQ(a.measurements[t].conditions, b.measurements[t].conditions);
+  EXPECT_GT(a.measurements[0].conditions.at("strain_rate"), 0);
+  EXPECT_GT(a.measurements[0].conditions.at("size"), 0);
 }
 
 TEST_F(Hide, ARunThatFailsIsAnErrorAndNotAGapInTheData) {
