@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "diagnose/hidden_set.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "base/sha256.h"
+#include "base/test_folder.h"
+#include "diagnose/forward_prober.h"
+
+namespace bondlab::diagnose {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path inputs = fs::path(BONDLAB_SOURCE_DIR) / "inputs";
+const fs::path frozen = inputs / "hidden" / "set.toml";
+
+// Cases are not to be chosen by what a diagnosis makes of them. Who changes them says so here.
+TEST(HiddenSet, IsTheOneThatWasFrozen) {
+  EXPECT_EQ(sha256_file(frozen),
+            "433083079892b04a019d921a2457ba560f1ae8f7343452d2e7796788eadba775");
+}
+
+TEST(HiddenSet, HasFourteenEffectsInTwoSizesFiveFromOutsideThreePairsAndFourNulls) {
+  const auto set = read_hidden_set(frozen);
+  std::map<std::string, int> kinds;
+  std::map<std::string, std::set<double>> sizes;
+  for (const auto &one : set.cases) {
+    ++kinds[one.kind];
+    if (one.kind == "effect") sizes[one.effects[0]].insert(one.units);
+  }
+  EXPECT_EQ(kinds,
+            (std::map<std::string, int>{{"effect", 28}, {"outside", 5}, {"pair", 3}, {"null", 4}}));
+  EXPECT_EQ(sizes.size(), 14u);
+  for (const auto &[name, units] : sizes) EXPECT_EQ(units, (std::set<double>{10, 20})) << name;
+}
+
+TEST(HiddenSet, NamesEffectsThatItsLaboratoryShowsInsideAndOutsideTheCatalogue) {
+  const auto set = read_hidden_set(frozen);
+  const Study study = read_study(set.laboratory);
+  const auto names = [](const std::vector<EffectDefinition> &effects) {
+    std::set<std::string> out;
+    for (const auto &effect : effects) out.insert(effect.name);
+    return out;
+  };
+  const auto inside = names(effects_of_study(study, read_effects(inputs / "effects")));
+  const auto outside = names(read_effects(inputs / "hidden" / "outside"));
+  for (const auto &one : set.cases)
+    for (const auto &effect : one.effects)
+      EXPECT_TRUE((one.kind == "outside" ? outside : inside).count(effect)) << one.id;
+}
+
+TEST(HiddenSet, EverySeriesOfTheLaboratoryHasItsOwnSpecimens) {
+  const Study study = read_study(read_hidden_set(frozen).laboratory);
+  std::set<std::string> specimens;
+  std::set<std::uint64_t> seeds;
+  for (const auto &test : study.tests) {
+    EXPECT_TRUE(specimens.insert(test.specimen).second) << test.name;
+    // Packings of hidden cases go up to a million above the seed.
+    EXPECT_TRUE(seeds.insert(study.specimen(test.specimen).seed / 10000000).second) << test.name;
+  }
+}
+
+TEST(HiddenSet, ErrorsNameTheLine) {
+  const TestFolder folder;
+  const auto complaint = [&](const std::string &text) -> std::string {
+    std::ofstream(folder.path() / "set.toml")
+        << "schema = 1\nlaboratory = \"l.toml\"\nreplicates = 4\n[[cases]]\nid = \"a\"\n"
+        << text;
+    try {
+      read_hidden_set(folder.path() / "set.toml");
+    } catch (const std::exception &error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(complaint("kind = \"null\"\nseed = 1\n"), "");
+  EXPECT_NE(complaint("kind = \"magic\"\nseed = 1\n").find("set.toml:6"), std::string::npos);
+  EXPECT_NE(complaint("kind = \"pair\"\nseed = 1\neffects = [\"a\"]\nunits = 10\n").find(":8"),
+            std::string::npos);
+  EXPECT_NE(complaint("kind = \"effect\"\nseed = 1\neffects = [\"a\"]\n").find("units"),
+            std::string::npos);
+  EXPECT_NE(
+      complaint("kind = \"null\"\nseed = 1\n[[cases]]\nid = \"a\"\nkind = \"null\"\nseed = 2\n")
+          .find("twice"),
+      std::string::npos);
+}
+
+}  // namespace
+}  // namespace bondlab::diagnose
