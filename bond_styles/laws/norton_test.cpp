@@ -91,10 +91,13 @@ TEST(NortonBond, length_and_radius_by_choice) {
   NortonType t = material();
   EXPECT_EQ(norton_length(t, 2.1e-3, 1e-3, 1e-3), 2.1e-3);
   EXPECT_EQ(norton_radius(t, 1e-3, 0.8e-3), 0.8e-3);
-  t.surface = true;
+  t.length = BondLength::surface;
   t.least_length = 5e-5;
   EXPECT_NEAR(norton_length(t, 2.1e-3, 1e-3, 1e-3), 1e-4, 1e-18);
   EXPECT_EQ(norton_length(t, 2.0e-3, 1e-3, 1e-3), 5e-5);
+  t.length = BondLength::radii;
+  EXPECT_EQ(norton_length(t, 2.1e-3, 1e-3, 0.8e-3), 1.8e-3);
+  t.length = BondLength::surface;
   t.diameter = 1.09e-3;
   EXPECT_EQ(norton_radius(t, 1e-3, 0.8e-3), 0.545e-3);
   NortonBench b = one_bond(t, false, 2.1e-3);

@@ -5,7 +5,7 @@
 //
 // Bond length L: the distance of the centres at bonding (MUSEN's strain), or that of the surfaces,
 // not below a floor, since touching spheres have none (the other reading of the printed "bond
-// length"). Radius: half a given diameter, or lambda min(R_i, R_j).
+// length"), or the sum of the radii (the parallel bond's). Radius: half a given diameter, or lambda min(R_i, R_j).
 //
 // The printed form (seed paper 002, eqs. 10-15), as far as it can be run: normal and shear creep apart
 // and with one A (eq. 12 and "the same power law"), elastic moments, |F_n| in eq. 15, which is a
@@ -28,6 +28,8 @@
 
 namespace bondlab::laws {
 
+enum class BondLength { center, surface, radii };
+
 struct NortonType {
   double modulus = 0.0;       // E_b, Pa
   double poisson = 0.3;       // nu_b; G = E/(2 (1 + nu))
@@ -41,8 +43,8 @@ struct NortonType {
   double crush = kNever, yield_t = kNever, yield_c = kNever, yield_s = kNever;  // Pa
   CreepKind creep = CreepKind::coupled;
   bool moments = false;       // do they creep?
-  bool surface = false;       // L from surface to surface
-  double least_length = 0.0;  // its floor, m
+  BondLength length = BondLength::center;
+  double least_length = 0.0;  // m, floor of a length between surfaces
   bool cut_only = false;
   TemperatureLaw temperature;
 };
@@ -69,8 +71,11 @@ inline double log_rate_at(double rate, double stress, double m) {
 inline double norton_radius(const NortonType &t, double ri, double rj) {
   return t.diameter > 0.0 ? 0.5 * t.diameter : t.lambda * std::min(ri, rj);
 }
+// L: the distance of the centres at bonding, that of the surfaces, or the sum of the radii, which is
+// the parallel bond's.
 inline double norton_length(const NortonType &t, double rest, double ri, double rj) {
-  return t.surface ? std::max(rest - ri - rj, t.least_length) : rest;
+  if (t.length == BondLength::surface) return std::max(rest - ri - rj, t.least_length);
+  return t.length == BondLength::radii ? ri + rj : rest;
 }
 inline double log_shear_ratio(const NortonType &t) {
   return t.shear_ratio > 0.0 ? std::log(t.shear_ratio) : log_mises_ratio(t.exponent);

@@ -52,11 +52,13 @@ NortonConstants BondNorton::constants_of(Block &b, Columns &c) const {
                     b.constant[SIGMA_C], b.constant[TAU_C], b.constant[CRUSH], b.constant[YIELD_T],
                     b.constant[YIELD_C], b.constant[YIELD_S], b.constant[EXPONENT],
                     b.constant[LOG_CREEP], b.constant[LOG_SHEAR], b.constant[BEND_SHAPE]};
-  if (surface_) {
-    const double *surface = b.constant[SURFACE], *least = b.constant[LEAST];
+  if (other_length_) {
+    const double *kind = b.constant[LENGTH], *least = b.constant[LEAST];
     for (int k = 0; k < kBlock; ++k) {
-      const double gap = rest[k] - ri[k] - rj[k], length = gap > least[k] ? gap : least[k];
-      c.length[k] = surface[k] != 0.0 ? length : rest[k];
+      const double radii = ri[k] + rj[k], gap = rest[k] - radii;
+      const double other =
+          kind[k] == double(BondLength::radii) ? radii : gap > least[k] ? gap : least[k];
+      c.length[k] = kind[k] != double(BondLength::center) ? other : rest[k];
     }
     n.length = c.length;
   }

@@ -47,7 +47,7 @@ class BondNorton : public BondBPM {
   // in 2D FSX and MBX alone
   enum State { STRAIN, THEN, DISSIPATED, FSX, FSY, FSZ, MBX, MBY, MBZ, MT, STATES };
   enum Constant {
-    MODULUS, SHEAR, LAMBDA, HALF_DIAMETER, SURFACE, LEAST, BETA, SIGMA_C, TAU_C, CRUSH, YIELD_T,
+    MODULUS, SHEAR, LAMBDA, HALF_DIAMETER, LENGTH, LEAST, BETA, SIGMA_C, TAU_C, CRUSH, YIELD_T,
     YIELD_C, YIELD_S, EXPONENT, LOG_CREEP, LOG_SHEAR, BEND_SHAPE, T_REF, ACTIVATION, MODULUS_SLOPE,
     STRENGTH_SLOPE, CONSTANTS
   };
@@ -70,7 +70,7 @@ class BondNorton : public BondBPM {
 
   std::vector<Type> kinds_;  // [nbondtypes + 1]
   const Type *common_;       // any type in use: what all types share is read from it
-  bool surface_;             // does a type measure its length between surfaces?
+  bool other_length_;        // has a type another length than the distance of the centres?
   double kelvin_;            // of the deck, this step
   class FixPropertyAtom *particle_kelvin_;
 

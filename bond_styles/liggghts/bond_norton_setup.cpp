@@ -14,7 +14,7 @@ using namespace bondlab::laws;
 
 BondNorton::BondNorton(LAMMPS *lmp)
     : BondBPM(lmp, "norton", STATES, CONSTANTS, /* orientations */ false), common_(NULL),
-      surface_(false), kelvin_(0.0), particle_kelvin_(NULL) {}
+      other_length_(false), kelvin_(0.0), particle_kelvin_(NULL) {}
 
 void BondNorton::read_coefficients(BondCoefficients &words, int lo, int hi) {
   using C = BondCoefficients;
@@ -59,10 +59,13 @@ void BondNorton::read_coefficients(BondCoefficients &words, int lo, int hi) {
       law.beta = words.number("beta", C::not_negative);
     } else if (word == "length") {
       const std::string kind = words.word("length");
-      if (kind != "center" && kind != "surface")
-        words.wrong("length is '" + kind + "', allowed are center and surface L_min (m)");
-      law.surface = kind == "surface";
-      if (law.surface) law.least_length = words.number("length surface: L_min (m)", C::positive);
+      if (kind != "center" && kind != "surface" && kind != "radii")
+        words.wrong("length is '" + kind + "', allowed are center, radii and surface L_min (m)");
+      law.length = kind == "surface" ? BondLength::surface
+                   : kind == "radii" ? BondLength::radii
+                                     : BondLength::center;
+      if (law.length == BondLength::surface)
+        law.least_length = words.number("length surface: L_min (m)", C::positive);
     } else if (word == "yield") {
       law.yield_t = words.number("yield: stress in tension (Pa)", C::positive);
       law.yield_c = words.number("yield: stress in compression (Pa)", C::positive);
@@ -111,12 +114,12 @@ void BondNorton::read_coefficients(BondCoefficients &words, int lo, int hi) {
 
 void BondNorton::init_style() {
   common_ = NULL;
-  surface_ = false;
+  other_length_ = false;
   for (int i = 1; i < static_cast<int>(kinds_.size()); i++) {
     if (!mine(i)) continue;
     const Type &t = kinds_[i];
     if (!common_) common_ = &t;
-    surface_ = surface_ || t.law.surface;
+    other_length_ = other_length_ || t.law.length != BondLength::center;
     const NortonType &a = common_->law, &b = t.law;
     if (a.creep != b.creep || a.moments != b.moments || a.cut_only != b.cut_only ||
         common_->every != t.every || common_->source != t.source || common_->kelvin != t.kelvin ||
@@ -145,7 +148,7 @@ void BondNorton::constants(const Pair &p, double *c) const {
   c[SHEAR] = 0.5 / (1.0 + n.poisson);
   c[LAMBDA] = n.lambda;
   c[HALF_DIAMETER] = 0.5 * n.diameter;
-  c[SURFACE] = n.surface ? 1.0 : 0.0;
+  c[LENGTH] = double(n.length);
   c[LEAST] = n.least_length;
   c[BETA] = n.beta;
   c[SIGMA_C] = bond_strength(t.sigma, p.tag_lo, p.tag_hi);
@@ -183,7 +186,7 @@ std::vector<double> BondNorton::coefficients(int type) const {
   std::vector<double> row = {
       n.modulus, n.poisson, n.diameter, n.lambda, n.beta, n.exponent, n.log_rate, n.rate_factor,
       n.shear_ratio, n.crush, n.yield_t, n.yield_c, n.yield_s, double(int(n.creep)), double(n.moments),
-      double(n.surface), n.least_length, double(n.cut_only), n.temperature.reference,
+      double(n.length), n.least_length, double(n.cut_only), n.temperature.reference,
       n.temperature.activation, n.temperature.modulus, n.temperature.strength,
       t.sigma.mean, double(int(t.sigma.scatter)), t.sigma.spread, double(t.sigma.seed),
       t.tau.mean, double(int(t.tau.scatter)), t.tau.spread, double(t.tau.seed),
@@ -202,7 +205,7 @@ void BondNorton::set_coefficients(int type, const std::vector<double> &row) {
   n.exponent = v[5], n.log_rate = v[6], n.rate_factor = v[7], n.shear_ratio = v[8], n.crush = v[9];
   n.yield_t = v[10], n.yield_c = v[11], n.yield_s = v[12];
   n.creep = static_cast<CreepKind>(int(v[13]));
-  n.moments = v[14] != 0.0, n.surface = v[15] != 0.0, n.least_length = v[16];
+  n.moments = v[14] != 0.0, n.length = BondLength(int(v[15])), n.least_length = v[16];
   n.cut_only = v[17] != 0.0;
   n.temperature = {v[18], v[19], v[20], v[21]};
   t.sigma = {v[22], static_cast<Scatter>(int(v[23])), v[24], std::uint64_t(v[25]), 0};
