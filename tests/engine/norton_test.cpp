@@ -184,7 +184,7 @@ TEST(NortonEngine, wrong_words_are_named) {
       {"bond_coeff * 1e9 0.3 1e6 1e6 0 -1", "m is -1, it must be positive"},
       {"bond_coeff * 1e9 0.3 1e6 1e6 0 3 creep fast", "creep is 'fast', allowed are coupled, separate, none"},
       {"bond_coeff * 1e9 0.3 1e6 1e6 0 3 every 2.5", "every must be a whole number"},
-      {"bond_coeff * 1e9 0.3 1e6 1e6 0 3 length gap", "allowed are center and surface"},
+      {"bond_coeff * 1e9 0.3 1e6 1e6 0 3 length gap", "allowed are center, radii and surface"},
       {"bond_coeff * 1e9 0.3 1e6 1e6 0 3 temperature cold", "allowed are a positive number (K), v_NAME, particles"},
       {"bond_coeff * 1e9 0.3 1e6 1e6 0 3 temperature particles", "needs the particles' temperature"},
       {"bond_coeff * 1e9 0.3 1e6 1e6 0 3 temperature v_none", "isn't an equal-style variable"},
