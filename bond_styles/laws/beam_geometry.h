@@ -74,17 +74,23 @@ namespace bondlab::laws {
   return odd * y + even;
 }
 
-// 2 atan2(a, b) for a, b >= 0, and the same divided by a. Both 0: finite.
+// 2 atan2(a, b) for a, b >= 0, and the same divided by a. Both 0: finite. inverse: 1/larger(a, b).
 struct DoubleAngle {
   double angle, over;
 };
-[[gnu::always_inline]] inline DoubleAngle double_angle(double a, double b) {
+[[gnu::always_inline]] inline double larger(double a, double b) {
+  const double large = a > b ? a : b;
+  return large > 1e-100 ? large : 1e-100;
+}
+[[gnu::always_inline]] inline DoubleAngle double_angle(double a, double b, double inverse) {
   const bool steep = a > b;
-  const double large = steep ? a : b, small = steep ? b : a;
-  const double inverse = 1.0 / (large > 1e-300 ? large : 1e-300);
+  const double small = steep ? b : a;
   const double r = small * inverse, twice = 2.0 * atan_ratio(r * r);
   const double angle = steep ? 3.14159265358979323846 - r * twice : r * twice;
   return {angle, steep ? angle * inverse : twice * inverse};
+}
+[[gnu::always_inline]] inline DoubleAngle double_angle(double a, double b) {
+  return double_angle(a, b, 1.0 / larger(a, b));
 }
 
 struct Quaternion {
@@ -123,7 +129,7 @@ inline BeamReference3 beam_reference(Vec3 xi, Vec3 xj, Quaternion qi, Quaternion
 
 // Strains of one bond in 3D, and what multiplies its stiffnesses in the loads (see above).
 struct BeamShape3 {
-  double distance;
+  double distance, inverse_distance;
   Vec3 e;
   double shear, bend, twist;       // beta, theta, psi
   Vec3 bend_couple, twist_couple;  // on i, over k_b and k_t
@@ -134,7 +140,7 @@ struct BeamShape3 {
   [[gnu::always_inline]] BeamShape3(Vec3 d, Quaternion frame_i, Quaternion frame_j,
                                     double weight_i = 1.0, double weight_j = 1.0) {
     distance = std::sqrt(dot(d, d));
-    const double inverse_distance = 1.0 / distance;
+    inverse_distance = 1.0 / distance;
     e = inverse_distance * d;
     const Vec3 ni = first_axis(frame_i), nj = first_axis(frame_j), sum = ni + nj,
                s = weight_i * ni + weight_j * nj;
@@ -145,24 +151,26 @@ struct BeamShape3 {
     const double along = a.w * b.x - a.x * b.w - a.y * b.z + a.z * b.y;
     const double close = 2.0 * (scalar * scalar + along * along);  // 1 + n_i.n_j = |s|^2/2
     const double one_plus = close > 1e-24 ? close : 1e-24;
-    const double inverse = 1.0 / one_plus;
-
-    const DoubleAngle half_twist = double_angle(std::fabs(along), std::fabs(scalar));
-    twist = (scalar < 0.0 ? -along : along) * half_twist.over;
-    twist_couple = (twist * inverse) * sum;
-
-    const Vec3 x = cross(ni, nj);
-    const DoubleAngle swing = double_angle(std::sqrt(dot(x, x)), one_plus);
-    bend = swing.angle;
-    bend_couple = swing.over * x;
-
-    const Vec3 wi = weight_i * cross(ni, e), wj = weight_j * cross(nj, e), w = wi + wj;
+    const Vec3 x = cross(ni, nj), wi = weight_i * cross(ni, e), wj = weight_j * cross(nj, e), w = wi + wj;
+    const double sine = std::sqrt(dot(x, x)), across = std::sqrt(dot(w, w));
     const double apart = weight_i - weight_j, both = weight_i * weight_j;
     const double size2 = apart * apart + 2.0 * both * one_plus;  // |s|^2
-    const double se = dot(s, e), ahead = std::sqrt(size2) + se;
-    const DoubleAngle off = double_angle(std::sqrt(dot(w, w)), ahead > 0.0 ? ahead : 0.0);
+    const double se = dot(s, e), length = std::sqrt(size2) + se, ahead = length > 0.0 ? length : 0.0;
+    const double turn = std::fabs(along), still = std::fabs(scalar);
+
+    // what divides, two and three at a time: divisions are the slowest of all this
+    const double l1 = larger(turn, still), l2 = larger(sine, one_plus), l3 = larger(across, ahead);
+    const double pair = 1.0 / (one_plus * l2), three = 1.0 / (l1 * l3 * size2);
+
+    const DoubleAngle half_twist = double_angle(turn, still, three * l3 * size2);
+    twist = (scalar < 0.0 ? -along : along) * half_twist.over;
+    twist_couple = (twist * (pair * l2)) * sum;
+    const DoubleAngle swing = double_angle(sine, one_plus, pair * one_plus);
+    bend = swing.angle;
+    bend_couple = swing.over * x;
+    const DoubleAngle off = double_angle(across, ahead, three * l1 * size2);
     shear = off.angle;
-    const double h = both * se / size2;
+    const double h = both * se * (three * l1 * l3);
     shear_force = (-off.over * inverse_distance) * (s - se * e);
     shear_i = off.over * (wi - h * x);
     shear_j = off.over * (wj + h * x);

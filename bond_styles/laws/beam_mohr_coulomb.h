@@ -48,6 +48,7 @@
 
 #include "beam_geometry.h"
 #include "bond_options.h"
+#include "bond_section.h"
 #include "grain_contact.h"
 
 namespace bondlab::laws {
@@ -71,9 +72,9 @@ struct BeamParameters {
   bool at_contact = false;  // shear is measured and acts at the grains' contact, not half-way
 };
 
-// w_i of beam_geometry.h. point: 0 in the middle, 1 at the grains' contact.
-inline double beam_weight(double point, double ri, double rj) {
-  return 1.0 + point * (ri - rj) / (ri + rj);
+// w_i of beam_geometry.h. point: 0 in the middle, 1 at the grains' contact; per_both: 1/(R_i + R_j).
+inline double beam_weight(double point, double ri, double rj, double per_both) {
+  return 1.0 + point * (ri - rj) * per_both;
 }
 
 // k_s/k_n of a beam of radius R_b and length l_0.
@@ -98,9 +99,10 @@ inline double beam_shear_ratio(BeamShear kind, double radius, double length, dou
 struct BeamStiffness {
   double normal, shear, bend, twist;
 };
-inline BeamStiffness beam_stiffness_3d(double modulus, double radius, double rest, double shear,
+// per_rest: 1/l_0
+inline BeamStiffness beam_stiffness_3d(double modulus, double radius, double per_rest, double shear,
                                        double twist, double bend_factor) {
-  const double r2 = radius * radius, kn = 3.14159265358979323846 * r2 * modulus / rest;
+  const double r2 = radius * radius, kn = kPi * r2 * modulus * per_rest;
   return {kn, shear * kn, 0.25 * bend_factor * r2 * kn, 0.5 * twist * r2 * kn};
 }
 inline BeamStiffness beam_stiffness_2d(double modulus, double radius, double rest, double shear,

@@ -31,7 +31,7 @@ void beam_block_2d(const Kinematics2 &k, const Orientations2 &o, const BeamArray
 
 #pragma GCC ivdep
   for (int b = 0; b < kBlock; ++b) {
-    const double weight = beam_weight(point[b], k.ri[b], k.rj[b]);
+    const double weight = beam_weight(point[b], k.ri[b], k.rj[b], k.per_both[b]);
     const BeamShape2 p(k.dx[b], k.dy[b], o.iw[b], o.iz[b], o.jw[b], o.jz[b],
                        BeamReference2{ix[b], iy[b], jx[b], jy[b]}, weight, 2.0 - weight);
     const double rest = rest_b[b], radius = radius_b[b];
@@ -114,7 +114,7 @@ void beam_block_2d(const Kinematics2 &k, const Orientations2 &o, const BeamArray
       const ContactForce2 f =
           contact_force(p, cs[b], reference[b], grains ? kn_c[b] : left,
                         grains ? ks_c[b] : left * shear_b[b], grains ? mu_c[b] : mu_b[b]);
-      const double arm = p.distance / (k.ri[b] + k.rj[b]);
+      const double arm = p.distance * k.per_both[b];
       out.fx[b] += -f.normal * p.ex - f.shear * p.ey;
       out.fy[b] += -f.normal * p.ey + f.shear * p.ex;
       out.ti[b] += arm * k.ri[b] * f.shear;
@@ -131,12 +131,10 @@ void beam_block_2d(const Kinematics2 &k, const Orientations2 &o, const BeamArray
     if (any > 0.0) {
 #pragma GCC ivdep
       for (int b = 0; b < kBlock; ++b) {
-        const double weight = beam_weight(point[b], k.ri[b], k.rj[b]);
-        const double off = 1.0 - 0.5 * weight - k.rj[b] / (k.ri[b] + k.rj[b]);
+        const double weight = beam_weight(point[b], k.ri[b], k.rj[b], k.per_both[b]);
+        const double off = 1.0 - 0.5 * weight - k.rj[b] * k.per_both[b];
         const PairStep2 p(k.dx[b], k.dy[b], k.ux[b], k.uy[b], k.s[b] + off * k.q[b]);
-        const double x0 = k.dx[b] - k.ux[b], y0 = k.dy[b] - k.uy[b];
-        const double du = ((k.dx[b] + x0) * k.ux[b] + (k.dy[b] + y0) * k.uy[b]) /
-                          (p.distance + std::sqrt(x0 * x0 + y0 * y0));
+        const double du = stretched(p, k.ux[b], k.uy[b], k.dx[b], k.dy[b]);
         BeamStiffness s = beam_stiffness_2d(modulus[b], radius_b[b], rest_b[b], shear_b[b],
                                             factor_b[b], thickness);
         s.normal *= p.distance > rest_b[b] ? tension[b] : 1.0;

@@ -28,31 +28,32 @@ void beam_block_3d(const Kinematics3 &k, const Orientations3 &o, const BeamArray
                      *__restrict fate_b = a.fate;
   const double *__restrict tension = opt.tension, *__restrict failure = opt.failure;
   double *__restrict worst_b = opt.worst, *__restrict lost_b = opt.lost;
-  alignas(64) double was_b[kBlock], share_b[kBlock];
+  alignas(64) double was_b[kBlock], share_b[kBlock], left_b[kBlock];  // left: stiffness after a break
   const bool contacts = beam_needs_motion(alive_b, c);
   double broken = 0.0;
 
 #pragma GCC ivdep
   for (int b = 0; b < kBlock; ++b) {
-    const double weight = beam_weight(point[b], k.ri[b], k.rj[b]);
+    const double weight = beam_weight(point[b], k.ri[b], k.rj[b], k.per_both[b]);
     const BeamShape3 p(
         {k.dx[b], k.dy[b], k.dz[b]},
         Quaternion{o.iw[b], o.ix[b], o.iy[b], o.iz[b]} * Quaternion{iw[b], ix[b], iy[b], iz[b]},
         Quaternion{o.jw[b], o.jx[b], o.jy[b], o.jz[b]} * Quaternion{jw[b], jx[b], jy[b], jz[b]},
         weight, 2.0 - weight);
     const double rest = rest_b[b], radius = radius_b[b];
-    BeamStiffness s =
-        beam_stiffness_3d(modulus[b], radius, rest, shear_b[b], twist_b[b], factor_b[b]);
+    const double inverse = 1.0 / (rest * radius), per_radius = inverse * rest;
+    BeamStiffness s = beam_stiffness_3d(modulus[b], radius, inverse * radius, shear_b[b], twist_b[b],
+                                        factor_b[b]);
+    left_b[b] = s.normal;
     const double stretch = p.distance - rest, S = s.shear * rest * rest;
     if (options) s.normal *= stretch > 0.0 ? tension[b] : 1.0;
     const double fn = s.normal * stretch;
 
     // stresses of the round section: R_b/I = 4/(A R_b), R_b/J = 2/(A R_b)
-    const double per_area = 1.0 / (3.14159265358979323846 * radius * radius);
-    const double rim = per_area / radius;
+    const double per_area = (1.0 / kPi) * per_radius * per_radius, rim = per_area * per_radius;
     const double sigma = fn * per_area + 4.0 * beta1[b] * rim * s.bend * p.bend;
     const double tau =
-        S * p.shear * per_area / p.distance + 2.0 * beta2[b] * rim * s.twist * std::fabs(p.twist);
+        S * p.shear * per_area * p.inverse_distance + 2.0 * beta2[b] * rim * s.twist * std::fabs(p.twist);
     const double was = alive_b[b];
     double share = was, pull = fn;
     if (options) {
@@ -95,11 +96,6 @@ void beam_block_3d(const Kinematics3 &k, const Orientations3 &o, const BeamArray
   const double *__restrict reference = c.reference, *__restrict kn_c = c.kn,
                            *__restrict ks_c = c.ks, *__restrict mu_c = c.mu,
                            *__restrict mu_b = a.friction;
-  const auto left_stiffness = [&](int b) {  // of the contact that replaces a bond
-    return kn_c[b] > 0.0
-               ? 0.0
-               : beam_stiffness_3d(modulus[b], radius_b[b], rest_b[b], 0.0, 0.0, 0.0).normal;
-  };
   // contacts of bonds that broke just now: nothing has slid yet
   for (int b = 0; b < kBlock; ++b) broken += was_b[b] > share_b[b] && share_b[b] == 0.0;
   if (broken > 0.0) {
@@ -107,7 +103,8 @@ void beam_block_3d(const Kinematics3 &k, const Orientations3 &o, const BeamArray
     for (int b = 0; b < kBlock; ++b) {
       const double l2 = k.dx[b] * k.dx[b] + k.dy[b] * k.dy[b] + k.dz[b] * k.dz[b];
       const double distance = std::sqrt(l2), overlap = reference[b] - distance;
-      const double stiffness = (was_b[b] > 0.0) & (share_b[b] == 0.0) ? left_stiffness(b) : 0.0;
+      const bool here = (was_b[b] > 0.0) & (share_b[b] == 0.0) & !(kn_c[b] > 0.0);
+      const double left = left_b[b], stiffness = here ? left : 0.0;
       const double push = overlap > 0.0 ? stiffness * overlap / distance : 0.0;
       out.fx[b] -= push * k.dx[b], out.fy[b] -= push * k.dy[b], out.fz[b] -= push * k.dz[b];
     }
@@ -120,12 +117,12 @@ void beam_block_3d(const Kinematics3 &k, const Orientations3 &o, const BeamArray
       const PairStep3 p({k.dx[b], k.dy[b], k.dz[b]}, {k.ux[b], k.uy[b], k.uz[b]},
                         {k.sx[b], k.sy[b], k.sz[b]}, {k.qx[b], k.qy[b], k.qz[b]});
       const bool grains = kn_c[b] > 0.0;
-      const double left = was_b[b] > 0.0 ? 0.0 : left_stiffness(b);
+      const double after = left_b[b], left = was_b[b] > 0.0 ? 0.0 : after;
       const ContactForce3 f =
           contact_force(p, Vec3{csx[b], csy[b], csz[b]}, reference[b], grains ? kn_c[b] : left,
                         grains ? ks_c[b] : left * shear_b[b], grains ? mu_c[b] : mu_b[b]);
       const Vec3 force = f.shear - f.normal * p.e, lever = cross(p.e, f.shear);
-      const double arm = p.distance / (k.ri[b] + k.rj[b]);
+      const double arm = p.distance * k.per_both[b];
       const double ai = arm * k.ri[b], aj = arm * k.rj[b];
       out.fx[b] += force.x, out.fy[b] += force.y, out.fz[b] += force.z;
       out.tix[b] += ai * lever.x, out.tiy[b] += ai * lever.y, out.tiz[b] += ai * lever.z;
@@ -142,13 +139,13 @@ void beam_block_3d(const Kinematics3 &k, const Orientations3 &o, const BeamArray
     if (any > 0.0) {
 #pragma GCC ivdep
       for (int b = 0; b < kBlock; ++b) {
-        const double weight = beam_weight(point[b], k.ri[b], k.rj[b]);
-        const double off = 1.0 - 0.5 * weight - k.rj[b] / (k.ri[b] + k.rj[b]);
-        const Vec3 d{k.dx[b], k.dy[b], k.dz[b]}, u{k.ux[b], k.uy[b], k.uz[b]}, d0 = d - u;
+        const double weight = beam_weight(point[b], k.ri[b], k.rj[b], k.per_both[b]);
+        const double off = 1.0 - 0.5 * weight - k.rj[b] * k.per_both[b];
+        const Vec3 d{k.dx[b], k.dy[b], k.dz[b]}, u{k.ux[b], k.uy[b], k.uz[b]};
         const Vec3 q{k.qx[b], k.qy[b], k.qz[b]}, mean = Vec3{k.sx[b], k.sy[b], k.sz[b]} + off * q;
         const PairStep3 p(d, u, mean, q);
-        const double du = dot(d + d0, u) / (p.distance + std::sqrt(dot(d0, d0)));
-        BeamStiffness s = beam_stiffness_3d(modulus[b], radius_b[b], rest_b[b], shear_b[b],
+        const double du = stretched(p, u, d);
+        BeamStiffness s = beam_stiffness_3d(modulus[b], radius_b[b], 1.0 / rest_b[b], shear_b[b],
                                             twist_b[b], factor_b[b]);
         s.normal *= p.distance > rest_b[b] ? tension[b] : 1.0;
         const double eta = viscous[b] * share_b[b];

@@ -87,7 +87,7 @@ class BeamLaw : public BondLaw {
     const auto &o = p.own;
     return bench.flat() ? beam_stiffness_2d(o[kModulus], o[kRadius], o[kRest], o[kShear],
                                             o[kFactor], bench.thickness())
-                        : beam_stiffness_3d(o[kModulus], o[kRadius], o[kRest], o[kShear], o[kTwist],
+                        : beam_stiffness_3d(o[kModulus], o[kRadius], 1.0 / o[kRest], o[kShear], o[kTwist],
                                             o[kFactor]);
   }
 
@@ -103,7 +103,8 @@ class BeamLaw : public BondLaw {
   }
 
   static double weight(const Bench &bench, const PairRow &p) {
-    return beam_weight(p.own[kPoint], bench.grains[p.i].radius, bench.grains[p.j].radius);
+    const double ri = bench.grains[p.i].radius, rj = bench.grains[p.j].radius;
+    return beam_weight(p.own[kPoint], ri, rj, 1.0 / (ri + rj));
   }
 
   // What the bond carries now, effective (without softening).

@@ -29,6 +29,7 @@ struct alignas(64) Kinematics3 {
   double sx[kBlock], sy[kBlock], sz[kBlock];
   double qx[kBlock], qy[kBlock], qz[kBlock];  // (w_j - w_i) dt, rad
   double ri[kBlock], rj[kBlock];              // radii, m
+  double per_both[kBlock];                    // 1/(R_i + R_j), 1/m
 };
 
 // Loads of one block of pairs, 3D. The contact point is a fraction R_i/(R_i+R_j) of the way from
@@ -48,6 +49,7 @@ struct alignas(64) Kinematics2 {
   double s[kBlock];               // (R_i w_i + R_j w_j) dt / (R_i + R_j), rad
   double q[kBlock];               // (w_j - w_i) dt, rad
   double ri[kBlock], rj[kBlock];  // radii, m
+  double per_both[kBlock];        // 1/(R_i + R_j), 1/m
 };
 
 struct alignas(64) PairLoads2 {

@@ -34,6 +34,7 @@
 
 #include <cmath>
 
+#include "bond_section.h"
 #include "pair_geometry.h"
 
 namespace bondlab::laws {
@@ -72,23 +73,19 @@ inline double softening_loss(double before, double worst, double failure, double
 }
 
 // Elastic energy of effective forces, J, as far as damage takes it: tensile normal force, shear, bend
-// and twist. Forces squared but the normal one; stiffness Pa/m, section m2, m4.
+// and twist. Forces squared but the normal one; stiffness Pa/m.
 inline double option_energy(double fn, double fs2, double mb2, double mt2, double kn, double ks,
-                            double kb, double area, double bend, double twist) {
+                            double kb, const BondSection& at) {
   const double soft = ks > 0.0 ? 1.0 / ks : 0.0;
-  return 0.5 * (fn * fn / (kn * area) + soft * fs2 / area + mb2 / (kb * bend) + soft * mt2 / twist);
+  return 0.5 * (fn * fn * at.per_area / kn + soft * (fs2 * at.per_area + mt2 * at.per_twist) +
+                mb2 * at.per_bend / kb);
 }
 
 // Change of the distance of a pair over a step, m, without the cancellation of two distances:
 // u.(d + d_0) / (|d| + |d_0|).
-inline double stretched(const PairStep3& p, Vec3 u, Vec3 d) {
-  const Vec3 sum = d + (d - u);
-  const double before = std::sqrt(dot(d - u, d - u));
-  return dot(u, sum) / (p.distance + before);
-}
+inline double stretched(const PairStep3& p, Vec3 u, Vec3 d) { return dot(u, d + (d - u)) * p.per_sum; }
 inline double stretched(const PairStep2& p, double ux, double uy, double dx, double dy) {
-  const double x0 = dx - ux, y0 = dy - uy;
-  return (ux * (dx + x0) + uy * (dy + y0)) / (p.distance + std::sqrt(x0 * x0 + y0 * y0));
+  return (ux * (dx + dx - ux) + uy * (dy + dy - uy)) * p.per_sum;
 }
 
 // s_f of a bond with fracture energy G_f (J/m2), stiffness k per area (Pa/m) and strength (Pa).

@@ -135,7 +135,7 @@ TEST(Bending, bend_is_across_twist_is_along) {
   Bench c = chain(rod, 1, 2.6);
   c.grains[1].w = {1e-3, 0, 0};
   c.load(1.0);
-  EXPECT_EQ(length(c.pairs[0].mb), 0.0);
+  EXPECT_LT(length(c.pairs[0].mb), 1e-15 * c.pairs[0].mt);
   EXPECT_NEAR(c.pairs[0].mt, 1e-3 * rod.G() * rod.J() / rod.spacing(), 1e-12);
 }
 

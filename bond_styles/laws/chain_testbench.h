@@ -355,7 +355,7 @@ class Bench {
       const Vec3 s = (share * i.radius) * i.w + (share * j.radius) * j.w;
       k.dx[b] = d.x, k.dy[b] = d.y, k.dz[b] = d.z, k.ux[b] = u.x, k.uy[b] = u.y, k.uz[b] = u.z;
       k.sx[b] = s.x, k.sy[b] = s.y, k.sz[b] = s.z, k.qx[b] = q.x, k.qy[b] = q.y, k.qz[b] = q.z;
-      k.ri[b] = i.radius, k.rj[b] = j.radius;
+      k.ri[b] = i.radius, k.rj[b] = j.radius, k.per_both[b] = 1.0 / (i.radius + j.radius);
     }
     const ContactParameters contact{c.reference.data(), c.kn.data(), c.ks.data(), c.mu.data()};
     PairRow *rows[kBlock];
@@ -405,7 +405,7 @@ class Bench {
       k.ux[b] = dt * (j.v.x - i.v.x), k.uy[b] = dt * (j.v.y - i.v.y);
       k.s[b] = dt / (i.radius + j.radius) * (i.radius * i.w.z + j.radius * j.w.z);
       k.q[b] = dt * (j.w.z - i.w.z);
-      k.ri[b] = i.radius, k.rj[b] = j.radius;
+      k.ri[b] = i.radius, k.rj[b] = j.radius, k.per_both[b] = 1.0 / (i.radius + j.radius);
     }
     const ContactParameters contact{c.reference.data(), c.kn.data(), c.ks.data(), c.mu.data()};
     PairRow *rows[kBlock];

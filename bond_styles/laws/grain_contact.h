@@ -81,7 +81,7 @@ inline void contact_block_3d(const Kinematics3& k, const ContactParameters& c, b
     const Vec3 stored{shear_x[b], shear_y[b], shear_z[b]};
     const ContactForce3 f = contact_force(p, stored, reference[b], kn[b], ks[b], mu[b]);
     const Vec3 force = f.shear - f.normal * p.e;
-    const double arm = p.distance / (k.ri[b] + k.rj[b]);
+    const double arm = p.distance * k.per_both[b];
     const Vec3 moment = cross(p.e, f.shear);
     out.fx[b] = force.x, out.fy[b] = force.y, out.fz[b] = force.z;
     const double ai = arm * k.ri[b], aj = arm * k.rj[b];
@@ -106,7 +106,7 @@ inline void contact_block_2d(const Kinematics2& k, const ContactParameters& c, b
     const ContactForce2 f = contact_force(p, stored, reference[b], kn[b], ks[b], mu[b]);
     out.fx[b] = -f.normal * p.ex - f.shear * p.ey;
     out.fy[b] = -f.normal * p.ey + f.shear * p.ex;
-    const double arm = p.distance / (k.ri[b] + k.rj[b]);
+    const double arm = p.distance * k.per_both[b];
     out.ti[b] = arm * k.ri[b] * f.shear;
     out.tj[b] = arm * k.rj[b] * f.shear;
     shear[b] = keep_state != 0.0 ? f.shear : stored;

@@ -69,6 +69,10 @@ Motion motion(Columns &c) {
                      m.plane.q})
     put(to, c.around(0.0, small));
   for (double *to : {m.space.ri, m.space.rj, m.plane.ri, m.plane.rj}) put(to, c.around(R, 0.1 * R));
+  for (int b = 0; b < kBlock; ++b) {
+    m.space.per_both[b] = 1.0 / (m.space.ri[b] + m.space.rj[b]);
+    m.plane.per_both[b] = 1.0 / (m.plane.ri[b] + m.plane.rj[b]);
+  }
   for (double *to : {m.turned.iw, m.turned.jw}) put(to, c.of(1.0));
   for (double *to : {m.turned.ix, m.turned.iy, m.turned.iz, m.turned.jx, m.turned.jy, m.turned.jz})
     put(to, c.around(0.0, 1e-6));

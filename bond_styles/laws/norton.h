@@ -142,8 +142,8 @@ void norton_finish(NortonBlock &t, const Arrays &a, const OptionArrays &o, const
   const double remains = step.cut_only ? 0.0 : 1.0;
 #pragma GCC ivdep
   for (int b = 0; b < kBlock; ++b) {
-    const NortonSection section =
-        flat ? norton_strip(radius[b], thickness) : norton_round(radius[b]);
+    const BondSection section =
+        flat ? strip_section(radius[b], thickness) : round_section(radius[b]);
     const NortonTrial in{t.creep.stress[b], t.creep.tau2[b], t.bend2[b], t.twist2[b],
                          t.stress_old[b], t.tau_old[b], t.bend_old[b], t.twist_old[b],
                          t.creep.lost_normal[b], t.creep.lost_shear[b], t.creep.lost_bend[b],
@@ -279,7 +279,7 @@ void norton_block_3d(const Kinematics3 &k, const NortonArrays3 &a, const NortonS
       along -= w.push[b];
     }
     const Vec3 force = across + along * e;
-    const double arm = w.distance[b] / (k.ri[b] + k.rj[b]);
+    const double arm = w.distance[b] * k.per_both[b];
     const double ai = arm * k.ri[b], aj = arm * k.rj[b];
     const Vec3 lever = cross(e, across);
     out.fx[b] = force.x, out.fy[b] = force.y, out.fz[b] = force.z;
@@ -357,7 +357,7 @@ void norton_block_2d(const Kinematics2 &k, const NortonArrays2 &a, const NortonS
     if constexpr (options)
       along += hold * w.vn[b], across += hold * w.vf[b], moment += hold * w.vm[b];
     if constexpr (contact) along -= w.push[b], across += w.g[b];
-    const double arm = w.distance[b] / (k.ri[b] + k.rj[b]);
+    const double arm = w.distance[b] * k.per_both[b];
     out.fx[b] = along * w.ex[b] - across * w.ey[b];
     out.fy[b] = along * w.ey[b] + across * w.ex[b];
     out.ti[b] = moment + arm * k.ri[b] * across;

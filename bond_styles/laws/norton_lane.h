@@ -15,25 +15,10 @@
 #include <cmath>
 
 #include "bond_options.h"
+#include "bond_section.h"
 #include "norton_step.h"
-#include "parallel.h"
 
 namespace bondlab::laws {
-
-// A section with the inverses that the lane needs.
-struct NortonSection {
-  double area, bend, twist;                 // m2, m4
-  double per_area, per_bend, per_twist;     // per_twist is 0 without twist
-};
-inline NortonSection norton_round(double radius) {
-  const double r2 = radius * radius, area = kPi * r2, per_area = 1.0 / area;
-  const double per_bend = 4.0 * kPi * per_area * per_area;
-  return {area, 0.25 * area * r2, 0.5 * area * r2, per_area, per_bend, 0.5 * per_bend};
-}
-inline NortonSection norton_strip(double radius, double thickness) {
-  const double area = 2.0 * radius * thickness, bend = area * radius * radius * (1.0 / 3.0);
-  return {area, bend, 0.0, 1.0 / area, 1.0 / bend, 0.0};
-}
 
 struct NortonTrial {
   double stress, tau2, bend2, twist2;     // Pa, Pa2, (N m)2
@@ -57,7 +42,7 @@ struct NortonLane {
 };
 
 template <bool advance, bool options>
-[[gnu::always_inline]] inline NortonLane norton_lane(const NortonTrial &in, const NortonSection &at) {
+[[gnu::always_inline]] inline NortonLane norton_lane(const NortonTrial &in, const BondSection &at) {
   NortonLane r;
   const double crept = in.stress - in.stress * in.lost_n;
   const double below = crept > in.yield_t ? in.yield_t : crept;
@@ -135,7 +120,7 @@ template <bool advance, bool options>
 // Elastic energy of an intact bond, J. Effective forces N, moments N m; share: carried part.
 inline double norton_energy(double stress, double modulus_n, double fs, double mb, double mt,
                             double modulus, double shear, double length, double share,
-                            const NortonSection &at) {
+                            const BondSection &at) {
   const double G = modulus * shear;
   const double normal = stress * stress / modulus_n * at.area * (stress > 0.0 ? share : 1.0);
   const double rest = fs * fs / G * at.per_area + mb * mb / modulus * at.per_bend +

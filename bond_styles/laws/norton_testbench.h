@@ -62,8 +62,8 @@ class NortonLaw : public BondLaw {
   double bond_length(const Bench &b, const PairRow &p) const {
     return norton_length(type, p.rest, b.grains[p.i].radius, b.grains[p.j].radius);
   }
-  NortonSection section(const Bench &b, const PairRow &p) const {
-    return b.flat() ? norton_strip(p.radius, b.thickness()) : norton_round(p.radius);
+  BondSection section(const Bench &b, const PairRow &p) const {
+    return b.flat() ? strip_section(p.radius, b.thickness()) : round_section(p.radius);
   }
   double modulus_n(const PairRow &p, double elastic) const {
     const double E = modulus_at(type, kelvin(p));

@@ -33,6 +33,7 @@
 #include <cmath>
 
 #include "bond_options.h"
+#include "bond_section.h"
 #include "grain_contact.h"
 
 namespace bondlab::laws {
@@ -46,19 +47,6 @@ struct ParallelParameters {
   double tan_phi = 0.0;       // tangent of the bond's friction angle, 1
   double thickness = 1.0;     // t of 2D discs, m
 };
-
-// Cross-section of a bond. Areas m^2, second moments m^4.
-struct BondSection {
-  double area, bend, twist;
-};
-inline constexpr double kPi = 3.14159265358979323846;
-inline BondSection round_section(double radius) {
-  const double r2 = radius * radius, area = kPi * r2;
-  return {area, 0.25 * area * r2, 0.5 * area * r2};
-}
-inline BondSection strip_section(double radius, double thickness) {
-  return {2.0 * radius * thickness, 2.0 / 3.0 * radius * radius * radius * thickness, 0.0};
-}
 
 // Arrays of one block of bonds. Shapes: [kBlock] each. Constants of the type are broadcast by the
 // caller, so that a block may mix types.
@@ -92,6 +80,67 @@ struct ParallelArrays2 {
   double* fate;
 };
 
+// A bond's trial state without its directions, one lane; the same for 3D and 2D.
+struct ParallelTrial {
+  double fn, fs, mb, mt;         // effective loads: normal with its sign, the others' sizes; N, N m
+  double kn, ks, opening;        // Pa/m; kn as in compression; E_t/E_c where fn pulls, else 1
+  double alive, sigma_c, tau_c, tan_phi, rim;  // rim = beta R_b
+  double failure, worst;         // softening, state of the last step
+};
+struct ParallelLane {
+  double hold;                  // 1 intact, 0 broken
+  double carried_n, carried_s;  // shares of the effective loads that act
+  double sigma, tau, fate;
+  double worst, softened;       // state; energy that softening takes in this step, J
+};
+
+// Criterion and softening.
+template <bool advance, bool options>
+[[gnu::always_inline]] inline ParallelLane parallel_lane(const ParallelTrial& in, const BondSection& at) {
+  ParallelLane r;
+  const double sigma_n = in.fn * at.per_area;
+  const double sigma = sigma_n + in.rim * in.mb * at.per_bend;
+  const double tau = in.fs * at.per_area + in.rim * in.mt * at.per_twist;
+  const double shear_strength = in.tau_c - sigma_n * in.tan_phi;
+  bool tension = sigma >= in.sigma_c;
+  bool shear = tau >= shear_strength;
+  double share = 1.0;
+  r.worst = r.softened = 0.0;
+  if constexpr (options) {
+    // s of a bond whose shear strength is used up by tension alone is without bound
+    const double opened = sigma / in.sigma_c;
+    const double slid = shear_strength > 0.0 ? tau / shear_strength : (shear ? 1e300 : 0.0);
+    const double factor = opened > slid ? opened : slid;
+    r.worst = !advance || in.worst > factor ? in.worst : factor;
+    share = integrity(r.worst, in.failure);
+    const bool broken = r.worst >= in.failure;
+    // brittle: tension is looked at first; softening: the larger of the two rules
+    tension = broken & ((opened >= slid) | ((in.failure <= 1.0) & (opened >= 1.0)));
+    shear = broken & !tension;
+    const double pressed = in.fn > 0.0 ? 0.0 : in.fn;
+    const double closed = 0.5 * pressed * pressed * at.per_area / in.kn;
+    const double stored = option_energy(in.fn > 0.0 ? in.fn : 0.0, in.fs * in.fs, in.mb * in.mb, in.mt * in.mt,
+                                        in.kn * in.opening, in.ks, in.kn, at);
+    r.softened = in.alive * softening_loss(in.worst, r.worst, in.failure, stored, closed);
+  }
+  r.hold = advance ? ((tension | shear) ? 0.0 : in.alive) : in.alive;
+  r.carried_s = r.hold * share;
+  r.carried_n = in.fn > 0.0 ? r.carried_s : r.hold;
+  r.sigma = in.alive * sigma;
+  r.tau = in.alive * tau;
+  r.fate = !advance || in.alive == 0.0 ? 0.0 : (tension ? 1.0 : (shear ? 2.0 : 0.0));
+  return r;
+}
+
+// The dashpots beside the bond's springs, N s/m and N m s per step: `viscous` in steps.
+struct ParallelDashpots {
+  double normal, shear, bend, twist;
+};
+inline ParallelDashpots parallel_dashpots(double viscous, double kn, double ks, const BondSection& at) {
+  const double vn = viscous * kn, vs = viscous * ks;
+  return {vn * at.area, vs * at.area, vn * at.bend, vs * at.twist};
+}
+
 // One block in 3D: bond and grain contact together; `out` gets their sum.
 // advance = false computes the loads of the stored state and changes nothing (set-up of a run).
 // options, contact = false leave these parts out; their pointers are then not read.
@@ -116,83 +165,49 @@ void parallel_block_3d(const Kinematics3& k, const ParallelArrays3& a, const Con
   double *__restrict worst_o = o.worst, *__restrict lost_o = o.lost;
 #pragma GCC ivdep
   for (int b = 0; b < kBlock; ++b) {
-    const PairStep3 p({k.dx[b], k.dy[b], k.dz[b]}, {k.ux[b], k.uy[b], k.uz[b]},
-                      {k.sx[b], k.sy[b], k.sz[b]}, {k.qx[b], k.qy[b], k.qz[b]});
+    const Vec3 d{k.dx[b], k.dy[b], k.dz[b]}, u{k.ux[b], k.uy[b], k.uz[b]};
+    const PairStep3 p(d, u, {k.sx[b], k.sy[b], k.sz[b]}, {k.qx[b], k.qy[b], k.qz[b]});
     ContactForce3 grain{0.0, {0.0, 0.0, 0.0}};
     if constexpr (contact)
       grain = contact_force(p, Vec3{csx[b], csy[b], csz[b]}, reference[b], kn_c[b], ks_c[b], mu_c[b]);
-    const BondSection section = round_section(radius[b]);
-    const double kn = stiffness[b], ks = kn / ratio[b], alive = alive_b[b];
+    const double R = radius[b], R2 = R * R, inverse = 1.0 / (R2 * ratio[b]);
+    const BondSection section = round_section(R, inverse * ratio[b]);
+    const double kn = stiffness[b], ks = kn * (inverse * R2), alive = alive_b[b];
     double fn = kn * section.area * (p.distance - rest[b]);
-    double opening = 1.0, failure = 1.0, viscous = 0.0, worst_before = 0.0;
+    double opening = 1.0, failure = 1.0, worst = 0.0, viscous = 0.0;
     if constexpr (options) {  // read before any choice is made: a load in a branch isn't vectorised
-      opening = tension_o[b], failure = failure_o[b], viscous = viscous_o[b];
-      worst_before = worst_o[b];
+      opening = tension_o[b], failure = failure_o[b], worst = worst_o[b], viscous = viscous_o[b];
       opening = fn > 0.0 ? opening : 1.0;
       fn *= opening;
     }
     const Vec3 fs = p.carried(Vec3{fsx[b], fsy[b], fsz[b]}) + (ks * section.area) * p.shear;
     const Vec3 mb = p.carried(Vec3{mbx[b], mby[b], mbz[b]}) + (kn * section.bend) * p.bend;
     const double mt = mt_b[b] + ks * section.twist * p.twist;
+    const ParallelLane r = parallel_lane<advance, options>(
+        {fn, std::sqrt(dot(fs, fs)), std::sqrt(dot(mb, mb)), std::fabs(mt), kn, ks, opening, alive, sigma_c[b],
+         tau_c[b], tan_phi[b], beta[b] * R, failure, worst},
+        section);
+    sigma_b[b] = r.sigma, tau_b[b] = r.tau, fate_b[b] = r.fate;
 
-    const double inverse_area = 1.0 / section.area;
-    const double rim = beta[b] * radius[b];
-    const double sigma_n = fn * inverse_area;
-    const double sigma = sigma_n + rim * std::sqrt(dot(mb, mb)) / section.bend;
-    const double tau =
-        std::sqrt(dot(fs, fs)) * inverse_area + rim * std::fabs(mt) / section.twist;
-    const double shear_strength = tau_c[b] - sigma_n * tan_phi[b];
-    bool tension = sigma >= sigma_c[b];
-    bool shear = tau >= shear_strength;
-    double hold, share = 1.0, worst = 0.0;
-    if constexpr (options) {
-      // s of a bond whose shear strength is used up by tension alone is without bound
-      const double opened = sigma / sigma_c[b];
-      const double slid = shear_strength > 0.0 ? tau / shear_strength : (shear ? 1e300 : 0.0);
-      const double factor = opened > slid ? opened : slid;
-      worst = !advance || worst_before > factor ? worst_before : factor;
-      share = integrity(worst, failure);
-      const bool broken = worst >= failure;
-      // brittle: tension is looked at first; softening: the larger of the two rules
-      tension = broken & ((opened >= slid) | ((failure <= 1.0) & (opened >= 1.0)));
-      shear = broken & !tension;
-    }
-    hold = advance ? ((tension | shear) ? 0.0 : alive) : alive;
-    sigma_b[b] = alive * sigma;
-    tau_b[b] = alive * tau;
-    fate_b[b] = !advance || alive == 0.0 ? 0.0 : (tension ? 1.0 : (shear ? 2.0 : 0.0));
-
-    Vec3 fs_out = hold * fs, mb_out = hold * mb;
-    double fn_out = hold * fn, mt_out = hold * mt;
-    if constexpr (options) {
-      fs_out = share * fs_out, mb_out = share * mb_out, mt_out *= share;
-      fn_out *= fn > 0.0 ? share : 1.0;
-      const double pressed = fn > 0.0 ? 0.0 : fn;
-      const double closed = 0.5 * pressed * pressed / (kn * section.area);
-      const double stored = option_energy(fn > 0.0 ? fn : 0.0, dot(fs, fs), dot(mb, mb), mt * mt,
-                                          kn * opening, ks, kn,
-                                          section.area, section.bend, section.twist);
-      // dashpots, with the motion of the step
-      const double vn = viscous * hold * kn * section.area;
-      const double vs = viscous * hold * ks * section.area;
-      const double vb = viscous * hold * kn * section.bend;
-      const double vt = viscous * hold * ks * section.twist;
-      const double stretch = stretched(p, Vec3{k.ux[b], k.uy[b], k.uz[b]}, Vec3{k.dx[b], k.dy[b], k.dz[b]});
-      fn_out += vn * stretch;
-      fs_out = fs_out + vs * p.shear;
-      mb_out = mb_out + vb * p.bend;
-      mt_out += vt * p.twist;
+    // The contact comes last: blocks with and without one must round alike.
+    double along = r.carried_n * fn, twist = r.carried_s * mt;
+    Vec3 across = r.carried_s * fs, bend = r.carried_s * mb;
+    if constexpr (options) {  // dashpots, with the motion of the step
+      const ParallelDashpots v = parallel_dashpots(viscous * r.hold, kn, ks, section);
+      const double stretch = stretched(p, u, d);
+      along += v.normal * stretch, twist += v.twist * p.twist;
+      across = across + v.shear * p.shear, bend = bend + v.bend * p.bend;
       if constexpr (advance) {
-        lost_o[b] += alive * softening_loss(worst_before, worst, failure, stored, closed) + vn * stretch * stretch +
-                     vs * dot(p.shear, p.shear) + vb * dot(p.bend, p.bend) + vt * p.twist * p.twist;
-        worst_o[b] = worst;
+        lost_o[b] += r.softened + v.normal * stretch * stretch + v.shear * dot(p.shear, p.shear) +
+                     v.bend * dot(p.bend, p.bend) + v.twist * p.twist * p.twist;
+        worst_o[b] = r.worst;
       }
     }
 
-    const Vec3 across = grain.shear + fs_out;
-    const Vec3 force = across + (fn_out - grain.normal) * p.e;
-    const Vec3 moment = mb_out + mt_out * p.e;
-    const double arm = p.distance / (k.ri[b] + k.rj[b]);
+    across = grain.shear + across;
+    along -= grain.normal;
+    const Vec3 force = across + along * p.e, moment = bend + twist * p.e;
+    const double arm = p.distance * k.per_both[b];
     const double ai = arm * k.ri[b], aj = arm * k.rj[b];
     const Vec3 lever = cross(p.e, across);
     out.fx[b] = force.x, out.fy[b] = force.y, out.fz[b] = force.z;
@@ -201,10 +216,10 @@ void parallel_block_3d(const Kinematics3& k, const ParallelArrays3& a, const Con
     out.tjx[b] = aj * lever.x - moment.x, out.tjy[b] = aj * lever.y - moment.y;
     out.tjz[b] = aj * lever.z - moment.z;
     if (advance) {
-      alive_b[b] = hold;
-      fsx[b] = hold * fs.x, fsy[b] = hold * fs.y, fsz[b] = hold * fs.z;
-      mbx[b] = hold * mb.x, mby[b] = hold * mb.y, mbz[b] = hold * mb.z;
-      mt_b[b] = hold * mt;
+      alive_b[b] = r.hold;
+      fsx[b] = r.hold * fs.x, fsy[b] = r.hold * fs.y, fsz[b] = r.hold * fs.z;
+      mbx[b] = r.hold * mb.x, mby[b] = r.hold * mb.y, mbz[b] = r.hold * mb.z;
+      mt_b[b] = r.hold * mt;
       if constexpr (contact) csx[b] = grain.shear.x, csy[b] = grain.shear.y, csz[b] = grain.shear.z;
     }
   }
@@ -214,7 +229,6 @@ void parallel_block_3d(const Kinematics3& k, const ParallelArrays3& a, const Con
 template <bool advance, bool options = false, bool contact = true>
 void parallel_block_2d(const Kinematics2& k, const ParallelArrays2& a, const ContactParameters& c,
                        double* __restrict cs, PairLoads2& out, const OptionArrays& o = {}) {
-  // Local restrict pointers: through the structs the compiler must reload them at every store.
   const double *__restrict rest = a.rest, *__restrict radius = a.radius,
                *__restrict stiffness = a.stiffness, *__restrict ratio = a.ratio,
                *__restrict beta = a.beta, *__restrict tan_phi = a.tan_phi,
@@ -222,8 +236,7 @@ void parallel_block_2d(const Kinematics2& k, const ParallelArrays2& a, const Con
                *__restrict reference = c.reference, *__restrict kn_c = c.kn,
                *__restrict ks_c = c.ks, *__restrict mu_c = c.mu;
   double *__restrict alive_b = a.alive, *__restrict sigma_b = a.sigma, *__restrict tau_b = a.tau,
-         *__restrict fate_b = a.fate;
-  double *__restrict fs_b = a.fs, *__restrict mb_b = a.mb;
+         *__restrict fate_b = a.fate, *__restrict fs_b = a.fs, *__restrict mb_b = a.mb;
   const double *__restrict tension_o = o.tension, *__restrict failure_o = o.failure,
                *__restrict viscous_o = o.viscous;
   double *__restrict worst_o = o.worst, *__restrict lost_o = o.lost;
@@ -236,71 +249,42 @@ void parallel_block_2d(const Kinematics2& k, const ParallelArrays2& a, const Con
     const BondSection section = strip_section(radius[b], thickness);
     const double kn = stiffness[b], ks = kn / ratio[b], alive = alive_b[b];
     double fn = kn * section.area * (p.distance - rest[b]);
-    double opening = 1.0, failure = 1.0, viscous = 0.0, worst_before = 0.0;
-    if constexpr (options) {  // read before any choice is made: a load in a branch isn't vectorised
-      opening = tension_o[b], failure = failure_o[b], viscous = viscous_o[b];
-      worst_before = worst_o[b];
+    double opening = 1.0, failure = 1.0, worst = 0.0, viscous = 0.0;
+    if constexpr (options) {
+      opening = tension_o[b], failure = failure_o[b], worst = worst_o[b], viscous = viscous_o[b];
       opening = fn > 0.0 ? opening : 1.0;
       fn *= opening;
     }
     const double fs = fs_b[b] + ks * section.area * p.shear;
     const double mb = mb_b[b] + kn * section.bend * k.q[b];
+    const ParallelLane r = parallel_lane<advance, options>(
+        {fn, std::fabs(fs), std::fabs(mb), 0.0, kn, ks, opening, alive, sigma_c[b], tau_c[b], tan_phi[b],
+         beta[b] * radius[b], failure, worst},
+        section);
+    sigma_b[b] = r.sigma, tau_b[b] = r.tau, fate_b[b] = r.fate;
 
-    const double inverse_area = 1.0 / section.area;
-    const double sigma_n = fn * inverse_area;
-    const double sigma = sigma_n + beta[b] * radius[b] * std::fabs(mb) / section.bend;
-    const double tau = std::fabs(fs) * inverse_area;
-    const double shear_strength = tau_c[b] - sigma_n * tan_phi[b];
-    bool tension = sigma >= sigma_c[b];
-    bool shear = tau >= shear_strength;
-    double hold, share = 1.0, worst = 0.0;
+    double along = r.carried_n * fn, across = r.carried_s * fs, bend = r.carried_s * mb;
     if constexpr (options) {
-      const double opened = sigma / sigma_c[b];
-      const double slid = shear_strength > 0.0 ? tau / shear_strength : (shear ? 1e300 : 0.0);
-      const double factor = opened > slid ? opened : slid;
-      worst = !advance || worst_before > factor ? worst_before : factor;
-      share = integrity(worst, failure);
-      const bool broken = worst >= failure;
-      // brittle: tension is looked at first; softening: the larger of the two rules
-      tension = broken & ((opened >= slid) | ((failure <= 1.0) & (opened >= 1.0)));
-      shear = broken & !tension;
-    }
-    hold = advance ? ((tension | shear) ? 0.0 : alive) : alive;
-    sigma_b[b] = alive * sigma;
-    tau_b[b] = alive * tau;
-    fate_b[b] = !advance || alive == 0.0 ? 0.0 : (tension ? 1.0 : (shear ? 2.0 : 0.0));
-
-    double fn_out = hold * fn, fs_out = hold * fs, mb_out = hold * mb;
-    if constexpr (options) {
-      fs_out *= share, mb_out *= share;
-      fn_out *= fn > 0.0 ? share : 1.0;
-      const double pressed = fn > 0.0 ? 0.0 : fn;
-      const double closed = 0.5 * pressed * pressed / (kn * section.area);
-      const double stored = option_energy(fn > 0.0 ? fn : 0.0, fs * fs, mb * mb, 0.0,
-                                          kn * opening, ks, kn,
-                                          section.area, section.bend, 1.0);
-      const double vn = viscous * hold * kn * section.area;
-      const double vs = viscous * hold * ks * section.area;
-      const double vb = viscous * hold * kn * section.bend;
+      const ParallelDashpots v = parallel_dashpots(viscous * r.hold, kn, ks, section);
       const double stretch = stretched(p, k.ux[b], k.uy[b], k.dx[b], k.dy[b]);
-      fn_out += vn * stretch, fs_out += vs * p.shear, mb_out += vb * k.q[b];
+      along += v.normal * stretch, across += v.shear * p.shear, bend += v.bend * k.q[b];
       if constexpr (advance) {
-        lost_o[b] += alive * softening_loss(worst_before, worst, failure, stored, closed) + vn * stretch * stretch +
-                     vs * p.shear * p.shear + vb * k.q[b] * k.q[b];
-        worst_o[b] = worst;
+        lost_o[b] += r.softened + v.normal * stretch * stretch + v.shear * p.shear * p.shear +
+                     v.bend * k.q[b] * k.q[b];
+        worst_o[b] = r.worst;
       }
     }
 
-    const double along = fn_out - grain.normal, across = grain.shear + fs_out;
-    const double arm = p.distance / (k.ri[b] + k.rj[b]);
+    along -= grain.normal, across += grain.shear;
+    const double arm = p.distance * k.per_both[b];
     out.fx[b] = along * p.ex - across * p.ey;
     out.fy[b] = along * p.ey + across * p.ex;
-    out.ti[b] = mb_out + arm * k.ri[b] * across;
-    out.tj[b] = arm * k.rj[b] * across - mb_out;
+    out.ti[b] = bend + arm * k.ri[b] * across;
+    out.tj[b] = arm * k.rj[b] * across - bend;
     if (advance) {
-      alive_b[b] = hold;
-      fs_b[b] = hold * fs;
-      mb_b[b] = hold * mb;
+      alive_b[b] = r.hold;
+      fs_b[b] = r.hold * fs;
+      mb_b[b] = r.hold * mb;
       if constexpr (contact) cs[b] = grain.shear;
     }
   }

@@ -134,7 +134,7 @@ const bondlab::ParticleRecords &AtomVecBondedSphere::fill_records() {
   if (domain->dimension == 2)
     records_.fill_plane(n, x, v, omega, radius);
   else
-    records_.fill_space(n, x, v, omega, radius);
+    records_.fill_space(n, x, v, omega, radius, send_orientation ? quat : NULL);
   return records_;
 }
 

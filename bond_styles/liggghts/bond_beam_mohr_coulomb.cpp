@@ -119,7 +119,7 @@ BeamStiffness BondBeamMohrCoulomb::whole(int row) const {
   const Pair p = pair(row);
   const double E = constant(MODULUS, row), s = constant(SHEAR, row), f = constant(BEND_FACTOR, row);
   return flat() ? beam_stiffness_2d(E, radius(p), rest(p), s, f, style_->thickness)
-                : beam_stiffness_3d(E, radius(p), rest(p), s, constant(TWIST, row), f);
+                : beam_stiffness_3d(E, radius(p), 1.0 / rest(p), s, constant(TWIST, row), f);
 }
 
 BeamLoads BondBeamMohrCoulomb::loads(int row) const {
@@ -131,7 +131,7 @@ BeamLoads BondBeamMohrCoulomb::loads(int row) const {
   const Pair p = pair(row);
   BeamStiffness k = whole(row);
   if (distance(row) > rest(p)) k.normal *= types_[p.type].tension;
-  const double weight = beam_weight(constant(POINT, row), p.ri, p.rj);
+  const double weight = beam_weight(constant(POINT, row), p.ri, p.rj, 1.0 / (p.ri + p.rj));
   if (flat()) {
     const BeamShape2 s(xj[0] - xi[0], xj[1] - xi[1], qi[0], qi[3], qj[0], qj[3], {f[0], f[1], f[2], f[3]},
                        weight, 2.0 - weight);

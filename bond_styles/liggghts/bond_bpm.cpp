@@ -73,11 +73,16 @@ void BondBPM::walk(bool advance, const bondlab::ParticleRecords &records, Sink s
   for (int first = 0; first < n; first += kBlock) {
     const int kind = block_type_[first / kBlock];
     if (kind == NONE) continue;
-    if (first + kBlock < n) t.prefetch(first + kBlock);
-    bondlab::gather(t, first, dt, records, kinematics);
-    view(first, kinematics.ri, kinematics.rj, block);
+    if (first + kBlock < n) {
+      t.prefetch(first + kBlock);
+      bondlab::prefetch(t, first + kBlock, records);
+    }
+    if (orientations_)
+      bondlab::gather(t, first, dt, records, style_->quat, kinematics, turned);
+    else
+      bondlab::gather(t, first, dt, records, kinematics);
+    view(first, kinematics.ri, kinematics.rj, kinematics.per_both, block);
     block.dt = dt;
-    if (orientations_) bondlab::gather(t, first, style_->quat, turned);
     run_block(block, kinematics, turned, advance, loads);
     sink(block, loads, kind);
   }
@@ -103,7 +108,7 @@ void BondBPM::for_each_force(const VisitForce &visit) {
 }
 
 // Lays out one block for the law: state in place, unless other styles own some of the lanes.
-void BondBPM::view(int first, const double *ri, const double *rj, Block &b) {
+void BondBPM::view(int first, const double *ri, const double *rj, const double *per_both, Block &b) {
   PairTable &t = table();
   const int kind = block_type_[first / kBlock], columns = t.columns();
   b.first = first;
@@ -156,7 +161,7 @@ void BondBPM::view(int first, const double *ri, const double *rj, Block &b) {
     return;
   }
   if (atom->ntypes == 1) {
-    grain_->constants_of_block(b.ri, b.rj, kn, ks, mu);
+    grain_->constants_of_block(b.ri, b.rj, per_both, kn, ks, mu);
   } else {
     const int place = VARYING + varying_;
     for (int k = 0; k < 3; k++)

@@ -192,7 +192,7 @@ class BondBPM : public Bond {
   void allocate();
   void derive_types();
   void derive_rows();
-  void view(int first, const double *ri, const double *rj, Block &);
+  void view(int first, const double *ri, const double *rj, const double *per_both, Block &);
   void restore_foreign(Block &);
   // sink(block, loads, kind): what is to be done with a block's loads
   template <class Kinematics, class Orientations, class Loads, class Sink>

@@ -34,12 +34,13 @@ void dispatch(bool advance, bool options, bool contact, Run run) {
 }
 
 // R_b = lambda min(R_i, R_j) and kbar_n = E_b / (R_i + R_j) of a block of bonds.
-inline void bond_sizes(const double *__restrict ri, const double *__restrict rj,
-                       const double *__restrict lambda, const double *__restrict modulus,
-                       double *__restrict radius, double *__restrict stiffness) {
+template <class Kinematics>
+inline void bond_sizes(const Kinematics &k, const double *__restrict lambda,
+                       const double *__restrict modulus, double *__restrict radius,
+                       double *__restrict stiffness) {
   for (int b = 0; b < laws::kBlock; ++b) {
-    radius[b] = lambda[b] * (ri[b] < rj[b] ? ri[b] : rj[b]);
-    stiffness[b] = modulus[b] / (ri[b] + rj[b]);
+    radius[b] = lambda[b] * (k.ri[b] < k.rj[b] ? k.ri[b] : k.rj[b]);
+    stiffness[b] = modulus[b] * k.per_both[b];
   }
 }
 

@@ -134,7 +134,7 @@ BondNorton::Shape BondNorton::shape(int row) const {
   const NortonType &t = kinds_[p.type].law;
   const double radius = norton_radius(t, p.ri, p.rj);
   return {norton_length(t, p.rest, p.ri, p.rj),
-          flat() ? norton_strip(radius, style_->thickness) : norton_round(radius)};
+          flat() ? strip_section(radius, style_->thickness) : round_section(radius)};
 }
 
 BondBPM::Values BondNorton::values(int row) {

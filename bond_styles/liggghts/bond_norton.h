@@ -79,7 +79,7 @@ class BondNorton : public BondBPM {
   bondlab::laws::NortonStep step_of(const Block &, bool advance) const;
   struct Shape {
     double length;  // m
-    bondlab::laws::NortonSection section;
+    bondlab::laws::BondSection section;
   };
   Shape shape(int row) const;
   template <bool advance, bool options, bool contact>

@@ -175,7 +175,7 @@ BondBPM::Opening BondNorton::opening(const Pair &p, const double *c) const {
   const NortonType &t = kinds_[p.type].law;
   const double radius = norton_radius(t, p.ri, p.rj);
   return {c[MODULUS] / norton_length(t, p.rest, p.ri, p.rj),
-          flat() ? norton_strip(radius, style_->thickness).area : norton_round(radius).area, c[SIGMA_C]};
+          flat() ? strip_section(radius, style_->thickness).area : round_section(radius).area, c[SIGMA_C]};
 }
 
 // ---- restart ------------------------------------------------------------------------------------

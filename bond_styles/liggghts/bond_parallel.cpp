@@ -74,7 +74,7 @@ void BondParallel::strengths(int row, double &sigma_c, double &tau_c) const {
 template <bool advance, bool options, bool contact>
 void BondParallel::block(Block &b, const Kinematics3 &k, PairLoads3 &loads) {
   double *radius = b.scratch[kMostConstants + 4], *stiffness = b.scratch[kMostConstants + 5];
-  bondlab::bond_sizes(b.ri, b.rj, b.constant[RADIUS_FACTOR], b.constant[MODULUS], radius, stiffness);
+  bondlab::bond_sizes(k, b.constant[RADIUS_FACTOR], b.constant[MODULUS], radius, stiffness);
   const ParallelArrays3 a{b.state[REST], radius, stiffness, b.constant[RATIO], b.constant[BETA],
                           b.constant[TAN_PHI], b.constant[SIGMA_C], b.constant[TAU_C], b.alive,
                           b.law(FSX), b.law(FSY), b.law(FSZ), b.law(MBX), b.law(MBY), b.law(MBZ),
@@ -86,7 +86,7 @@ void BondParallel::block(Block &b, const Kinematics3 &k, PairLoads3 &loads) {
 template <bool advance, bool options, bool contact>
 void BondParallel::block(Block &b, const Kinematics2 &k, PairLoads2 &loads) {
   double *radius = b.scratch[kMostConstants + 4], *stiffness = b.scratch[kMostConstants + 5];
-  bondlab::bond_sizes(b.ri, b.rj, b.constant[RADIUS_FACTOR], b.constant[MODULUS], radius, stiffness);
+  bondlab::bond_sizes(k, b.constant[RADIUS_FACTOR], b.constant[MODULUS], radius, stiffness);
   const ParallelArrays2 a{b.state[REST], radius, stiffness, b.constant[RATIO], b.constant[BETA],
                           b.constant[TAN_PHI], b.constant[SIGMA_C], b.constant[TAU_C],
                           style_->thickness, b.alive, b.law(FSX), b.law(MBX), b.report.sigma,

@@ -23,22 +23,28 @@
 
 namespace bondlab {
 
-// One record a particle or ghost: x y z vx vy vz _ _, wx wy wz r; in the plane x y vx vy w r _ _.
+// One record a particle or ghost: x y z vx vy vz _ _, wx wy wz r and, if a law wants it, the orientation;
+// in the plane x y vx vy w r _ _.
 class ParticleRecords {
  public:
-  static constexpr int kSpace = 12, kPlane = 8;
+  static constexpr int kPlane = 8;
 
-  void fill_space(int n, double *const *x, double *const *v, double *const *w, const double *r) {
-    grow(n, kSpace);
+  void fill_space(int n, double *const *x, double *const *v, double *const *w, const double *r,
+                  double *const *quat) {
+    width_ = quat ? 16 : 12;
+    grow(n, width_);
     if (n == 0) return;
-    const double *X = x[0], *V = v[0], *W = w[0];
+    const double *X = x[0], *V = v[0], *W = w[0], *Q = quat ? quat[0] : nullptr;
     for (int i = 0; i < n; ++i) {
-      double *p = records_.data() + kSpace * i;
+      double *p = records_.data() + width_ * i;
       for (int d = 0; d < 3; ++d) p[d] = X[3 * i + d], p[3 + d] = V[3 * i + d], p[8 + d] = W[3 * i + d];
       p[11] = r[i];
+      if (Q)
+        for (int d = 0; d < 4; ++d) p[12 + d] = Q[4 * i + d];
     }
   }
   void fill_plane(int n, double *const *x, double *const *v, double *const *w, const double *r) {
+    width_ = kPlane;
     grow(n, kPlane);
     if (n == 0) return;
     const double *X = x[0], *V = v[0], *W = w[0];
@@ -48,40 +54,72 @@ class ParticleRecords {
       p[4] = W[3 * i + 2], p[5] = r[i];
     }
   }
-  const double *space(int i) const { return records_.data() + kSpace * std::size_t(i); }
+  const double *space(int i) const { return records_.data() + width_ * i; }
   const double *plane(int i) const { return records_.data() + kPlane * std::size_t(i); }
+  // Do they fit the second cache of a processor? Then asking ahead for single ones costs more than it saves.
+  bool near() const { return used_ * sizeof(double) < (std::size_t(2) << 20); }
 
  private:
   HugeVector records_;
-  void grow(int n, int width) {
-    const std::size_t needed = std::size_t(n) * width;
+  std::ptrdiff_t width_ = kPlane;  // doubles a record
+  std::size_t used_ = 0;
+  void grow(int n, std::ptrdiff_t width) {
+    const std::size_t needed = used_ = std::size_t(n) * width;
     if (records_.size() < needed) records_.resize(needed + needed / 8, 0.0);
   }
 };
 
-inline void gather(const PairTable &t, int first, double dt, const ParticleRecords &p,
-                   laws::Kinematics3 &k) {
+// Asks for the records of a block ahead of its use: those of the larger tags are scattered.
+inline void prefetch(const PairTable &t, int first, const ParticleRecords &p) {
+  if (p.near()) return;
+  const int *at_hi = t.at_hi.data() + first;
+  for (int b = 0; b < laws::kBlock; ++b) {
+    __builtin_prefetch(p.space(at_hi[b]));
+    __builtin_prefetch(p.space(at_hi[b]) + 8);
+  }
+}
+
+// Motion of a block and, with `turned`, the orientations of its particles.
+template <bool turned>
+inline void gather_space(const PairTable &t, int first, double dt, const ParticleRecords &p,
+                         laws::Kinematics3 &k, laws::Orientations3 *q) {
   const int *at_lo = t.at_lo.data() + first, *at_hi = t.at_hi.data() + first;
   for (int b = 0; b < laws::kBlock; b += 8) {
-    Lanes8 motion[8], spin[8];
-    for (int l = 0; l < 8; ++l) {
-      const double *i = p.space(at_lo[b + l]), *j = p.space(at_hi[b + l]);
-      motion[l] = load8(j) - load8(i);
-      spin[l] = load4_4(i + 8, j + 8);
-    }
+    Lanes8 motion[8], i[8], j[8];
+    for (int l = 0; l < 8; ++l) motion[l] = load8(p.space(at_hi[b + l])) - load8(p.space(at_lo[b + l]));
     transpose8(motion);
-    transpose8(spin);
     store8(k.dx + b, motion[0]), store8(k.dy + b, motion[1]), store8(k.dz + b, motion[2]);
     store8(k.ux + b, dt * motion[3]), store8(k.uy + b, dt * motion[4]), store8(k.uz + b, dt * motion[5]);
-    const Lanes8 ri = spin[3], rj = spin[7], share = dt / (ri + rj), si = share * ri, sj = share * rj;
-    store8(k.sx + b, si * spin[0] + sj * spin[4]);
-    store8(k.sy + b, si * spin[1] + sj * spin[5]);
-    store8(k.sz + b, si * spin[2] + sj * spin[6]);
-    store8(k.qx + b, dt * (spin[4] - spin[0]));
-    store8(k.qy + b, dt * (spin[5] - spin[1]));
-    store8(k.qz + b, dt * (spin[6] - spin[2]));
-    store8(k.ri + b, ri), store8(k.rj + b, rj);
+    if constexpr (turned) {
+      for (int l = 0; l < 8; ++l) i[l] = load8(p.space(at_lo[b + l]) + 8);
+      transpose8(i);
+      store8(q->iw + b, i[4]), store8(q->ix + b, i[5]), store8(q->iy + b, i[6]), store8(q->iz + b, i[7]);
+      for (int l = 0; l < 8; ++l) j[l] = load8(p.space(at_hi[b + l]) + 8);
+      transpose8(j);
+      store8(q->jw + b, j[4]), store8(q->jx + b, j[5]), store8(q->jy + b, j[6]), store8(q->jz + b, j[7]);
+    } else {
+      for (int l = 0; l < 8; ++l) i[l] = load4_4(p.space(at_lo[b + l]) + 8, p.space(at_hi[b + l]) + 8);
+      transpose8(i);
+      for (int d = 0; d < 4; ++d) j[d] = i[4 + d];
+    }
+    const Lanes8 ri = i[3], rj = j[3], per_both = 1.0 / (ri + rj), share = dt * per_both,
+                 si = share * ri, sj = share * rj;
+    store8(k.sx + b, si * i[0] + sj * j[0]);
+    store8(k.sy + b, si * i[1] + sj * j[1]);
+    store8(k.sz + b, si * i[2] + sj * j[2]);
+    store8(k.qx + b, dt * (j[0] - i[0]));
+    store8(k.qy + b, dt * (j[1] - i[1]));
+    store8(k.qz + b, dt * (j[2] - i[2]));
+    store8(k.ri + b, ri), store8(k.rj + b, rj), store8(k.per_both + b, per_both);
   }
+}
+inline void gather(const PairTable &t, int first, double dt, const ParticleRecords &p,
+                   laws::Kinematics3 &k) {
+  gather_space<false>(t, first, dt, p, k, nullptr);
+}
+inline void gather(const PairTable &t, int first, double dt, const ParticleRecords &p, double *const *,
+                   laws::Kinematics3 &k, laws::Orientations3 &q) {
+  gather_space<true>(t, first, dt, p, k, &q);
 }
 
 inline void gather(const PairTable &t, int first, double dt, const ParticleRecords &p,
@@ -98,27 +136,18 @@ inline void gather(const PairTable &t, int first, double dt, const ParticleRecor
     transpose8(rows);
     store8(k.dx + b, rows[0]), store8(k.dy + b, rows[1]);
     store8(k.ux + b, dt * rows[2]), store8(k.uy + b, dt * rows[3]);
-    const Lanes8 wi = rows[4], ri = rows[5], wj = rows[6], rj = rows[7], share = dt / (ri + rj);
+    const Lanes8 wi = rows[4], ri = rows[5], wj = rows[6], rj = rows[7], per_both = 1.0 / (ri + rj),
+                 share = dt * per_both;
     store8(k.s + b, share * ri * wi + share * rj * wj);
     store8(k.q + b, dt * (wj - wi));
-    store8(k.ri + b, ri), store8(k.rj + b, rj);
+    store8(k.ri + b, ri), store8(k.rj + b, rj), store8(k.per_both + b, per_both);
   }
 }
 
-// quat: the atom style's [n][4] orientations.
-inline void gather(const PairTable &t, int first, double *const *quat, laws::Orientations3 &q) {
-  const double *Q = quat[0];
-  const int *at_lo = t.at_lo.data() + first, *at_hi = t.at_hi.data() + first;
-  for (int b = 0; b < laws::kBlock; b += 8) {
-    Lanes8 rows[8];
-    for (int l = 0; l < 8; ++l) rows[l] = load4_4(Q + 4 * at_lo[b + l], Q + 4 * at_hi[b + l]);
-    transpose8(rows);
-    store8(q.iw + b, rows[0]), store8(q.ix + b, rows[1]), store8(q.iy + b, rows[2]), store8(q.iz + b, rows[3]);
-    store8(q.jw + b, rows[4]), store8(q.jx + b, rows[5]), store8(q.jy + b, rows[6]), store8(q.jz + b, rows[7]);
-  }
-}
-
-inline void gather(const PairTable &t, int first, double *const *quat, laws::Orientations2 &q) {
+// The same with orientations; quat: the atom style's [n][4], which the records of the plane leave out.
+inline void gather(const PairTable &t, int first, double dt, const ParticleRecords &p, double *const *quat,
+                   laws::Kinematics2 &k, laws::Orientations2 &q) {
+  gather(t, first, dt, p, k);
   const double *Q = quat[0];
   const int *at_lo = t.at_lo.data() + first, *at_hi = t.at_hi.data() + first;
   for (int b = 0; b < laws::kBlock; ++b) {

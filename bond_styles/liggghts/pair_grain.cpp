@@ -131,7 +131,7 @@ void PairGrain::constants(int itype, int jtype, double ri, double rj, double &kn
 }
 
 void PairGrain::constants_of_block(const double *__restrict ri, const double *__restrict rj,
-                                   double *__restrict kn, double *__restrict ks,
+                                   const double *__restrict per_both, double *__restrict kn, double *__restrict ks,
                                    double *__restrict mu) const {
   const double modulus = modulus_[1][1], ratio = ratio_[1][1], friction = friction_[1][1];
   if (domain->dimension == 2) {
@@ -140,9 +140,12 @@ void PairGrain::constants_of_block(const double *__restrict ri, const double *__
     for (int b = 0; b < kBlock; b++) kn[b] = k, ks[b] = k / ratio, mu[b] = friction;
     return;
   }
+  // in_series() of two grains of one modulus is 4 E R_i R_j/(R_i + R_j)
+  const double four = grain_stiffness_3d(1.0, modulus), soft = four / ratio;
   for (int b = 0; b < kBlock; b++) {
-    kn[b] = modulus > 0.0 ? in_series(grain_stiffness_3d(ri[b], modulus), grain_stiffness_3d(rj[b], modulus)) : 0.0;
-    ks[b] = kn[b] / ratio;
+    const double share = ri[b] * rj[b] * per_both[b];
+    kn[b] = four * share;
+    ks[b] = soft * share;
     mu[b] = friction;
   }
 }

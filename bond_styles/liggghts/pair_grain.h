@@ -36,7 +36,7 @@ class PairGrain : public Pair {
   void constants(int itype, int jtype, double ri, double rj, double &kn, double &ks,
                  double &mu) const;
   // The same for a block of pairs (laws/bond_batch.h) of particles that are all of type 1.
-  void constants_of_block(const double *ri, const double *rj, double *kn, double *ks,
+  void constants_of_block(const double *ri, const double *rj, const double *per_both, double *kn, double *ks,
                           double *mu) const;
   // Visits this rank's share of the unbonded contacts: (kn, ks, overlap, shear force), each once.
   template <class Visit>
