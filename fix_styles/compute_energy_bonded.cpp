@@ -16,7 +16,7 @@
 using namespace LAMMPS_NS;
 
 namespace {
-enum Part { BOND, CONTACT, TRANSLATION, ROTATION, LOST, CREEP, PARTS };
+enum Part { BOND, CONTACT, TRANSLATION, ROTATION, LOST, CREEP, INTACT, PARTS };
 }
 
 ComputeEnergyBonded::ComputeEnergyBonded(LAMMPS *lmp, int &iarg, int narg, char **arg)
@@ -45,6 +45,7 @@ void ComputeEnergyBonded::compute_vector() {
   for (BondBPM *bond : BondBPM::all(lmp))
     for (int row = 0; row < style_->bonds.size(); row++) {
       if (!bond->computes(row) || !bond->counted_here(row)) continue;
+      if (bond->intact(row)) sums.add(INTACT, 1.0);
       const BondBPM::Values values = bond->values(row);
       sums.add(BOND, values.energy);
       sums.add(CONTACT, bond->contact_row_energy(row));

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/specimen_request.h"
+
 namespace bondlab {
 
 namespace {
@@ -17,18 +19,14 @@ constexpr double kSecondsPerParticleStep =
     50e-9;                             // 41 to 47 ns measured in 2D with AVX-512, one rank
 constexpr double kStartSeconds = 0.5;  // mpirun, reading, installing bonds
 
-double mean_power(double r_min, double ratio,
-                  int power) {  // of radii uniform between r_min and ratio r_min
-  if (ratio <= 1) return std::pow(r_min, power);
-  return std::pow(r_min, power) * (std::pow(ratio, power + 1) - 1) / ((ratio - 1) * (power + 1));
-}
-
 }  // namespace
 
 double expected_particles(const SpecimenEntry &s) {
   const double space = Container(s.shape, s.size).measure();
-  if (is_flat(s.shape)) return kSolidDisc * space / (kPi * mean_power(s.r_min, s.r_ratio, 2));
-  return kSolidSphere * space / (4.0 / 3 * kPi * mean_power(s.r_min, s.r_ratio, 3));
+  const int dimension = is_flat(s.shape) ? 2 : 3;
+  const auto sizes = size_distribution(specimen_request(s, 0).size_settings(), dimension);
+  if (dimension == 2) return kSolidDisc * space / (kPi * sizes->moment(2));
+  return kSolidSphere * space / (4.0 / 3 * kPi * sizes->moment(3));
 }
 
 std::optional<RunCost> run_cost(const RunPlan &plan, const RunStore *store) {

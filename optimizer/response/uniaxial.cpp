@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "response/loading_branch.h"
 
 namespace bondlab::uniaxial {
@@ -44,6 +46,11 @@ double peak_strain(const Curve &curve, const ResponseContext &) {
   return finite_column(curve, "strain_axial")[branch.peak];
 }
 
+double peak_strain_platen(const Curve &curve, const ResponseContext &) {
+  const auto branch = loading_branch(curve);
+  return finite_column(curve, "strain_platen")[branch.peak];
+}
+
 double tangent_modulus_gauge(const Curve &curve, const ResponseContext &) {
   return tangent_modulus(curve, "strain_axial");
 }
@@ -61,6 +68,22 @@ double poisson_gauge(const Curve &curve, const ResponseContext &) {
   const auto &axial = finite_column(curve, "strain_axial");
   const auto &lateral = finite_column(curve, "strain_lateral");
   return fit_line(axial, lateral, loading_window(branch.stress, branch.peak)).slope;
+}
+
+double bonds(const Curve &curve, const ResponseContext &) {
+  const auto &intact = finite_column(curve, "intact_bonds");
+  const auto &broken = finite_column(curve, "broken_bonds");
+  return intact.front() + broken.front();
+}
+
+double greatest_strain_energy(const Curve &curve, const ResponseContext &) {
+  const auto &energy = finite_column(curve, "strain_energy");
+  return *std::max_element(energy.begin(), energy.end());
+}
+
+double greatest_kinetic_energy(const Curve &curve, const ResponseContext &) {
+  const auto &energy = finite_column(curve, "kinetic_energy");
+  return *std::max_element(energy.begin(), energy.end());
 }
 
 double platen_imbalance(const Curve &curve, const ResponseContext &) {

@@ -9,7 +9,8 @@
 //   single cracks and platen waves. Stress is engineering stress (force over the first area).
 // Columns read: time, axial_stress (Pa, compression +), strain_axial (gauge, compression +),
 //   strain_lateral (expansion +), strain_platen, strain_machine (with the frame's compliance);
-//   force_top and force_bottom (N), kinetic_energy and strain_energy (J) for quality only.
+//   force_top and force_bottom (N) for quality only; kinetic_energy, strain_energy (J),
+//   intact_bonds, broken_bonds.
 // Units: SI. Failure: ResponseError, see response.h.
 // Limits: nu is a plane value in 2D (it may pass 0.5); the window assumes that the loading branch
 //   is nearly straight there, which cracking before 60 % of the peak would spoil.
@@ -22,11 +23,15 @@ namespace bondlab::uniaxial {
 double peak_stress(const Curve &curve, const ResponseContext &context);  ///< Pa
 double peak_strain(const Curve &curve,
                    const ResponseContext &context);  ///< gauge axial strain at the peak
+double peak_strain_platen(const Curve &curve, const ResponseContext &context);  ///< the same, by the platens
 double tangent_modulus_gauge(const Curve &curve, const ResponseContext &context);   ///< Pa
 double tangent_modulus_platen(const Curve &curve, const ResponseContext &context);  ///< Pa
 double tangent_modulus_machine(const Curve &curve,
                                const ResponseContext &context);  ///< by the machine's drive, Pa
 double poisson_gauge(const Curve &curve, const ResponseContext &context);
+double bonds(const Curve &curve, const ResponseContext &context);  ///< at the start, number
+double greatest_strain_energy(const Curve &curve, const ResponseContext &context);   ///< J
+double greatest_kinetic_energy(const Curve &curve, const ResponseContext &context);  ///< J
 /// Quality: largest difference of the two platens' forces in the regression window, as a share of
 /// their mean.
 double platen_imbalance(const Curve &curve, const ResponseContext &context);

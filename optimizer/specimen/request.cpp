@@ -73,7 +73,12 @@ void check_request(const SpecimenRequest &request) {
 
   const auto sizes = size_distribution(request.size_settings(), is_flat(request.shape) ? 2 : 3);
   const Container container = request.container();
-  const double r_mean = sizes->moment(1), needed = fewest_across * 2 * r_mean;
+  // A filling is mostly small particles, whatever its distribution: it needs room for the largest.
+  const bool filling = request.method == "filling";
+  const double r_mean = sizes->moment(1);
+  const double needed =
+      filling ? std::max(2 * sizes->largest(), fewest_across * 2 * sizes->smallest())
+              : fewest_across * 2 * r_mean;
   if (container.has_notch() && request.notch_width < narrowest_notch * r_mean)
     throw UserError("the notch is " + in_metres(request.notch_width) +
                     " wide, so narrow that bonds would cross it (allowed: at least " +
@@ -82,8 +87,11 @@ void check_request(const SpecimenRequest &request) {
     throw UserError("the " + shape + " is " + in_metres(container.smallest_size()) +
                     " in its smallest direction" +
                     (container.has_notch() ? " (above or beside the notch included)" : "") +
-                    ", too small for particles of mean diameter " + in_metres(2 * r_mean) +
-                    " (allowed: at least " + in_metres(needed) + ", five particles across)");
+                    ", too small for particles of " +
+                    (filling ? "up to " + in_metres(2 * sizes->largest())
+                             : "mean diameter " + in_metres(2 * r_mean)) +
+                    " (allowed: at least " + in_metres(needed) +
+                    (filling ? ", the largest particle and five of the smallest)" : ", five particles across)"));
   const int dimension = container.dimension();
   const double one = dimension == 2 ? 4 * sizes->moment(2) : 8 * sizes->moment(3);
   if (container.measure() / one > static_cast<double>(most_particles))

@@ -10,6 +10,13 @@ SpecimenRequest specimen_request(const SpecimenEntry &entry, int packing) {
   request.r_min = entry.r_min;
   request.r_ratio = entry.r_ratio;
   request.sizes = entry.sizes;
+  request.r_median = entry.r_median;
+  request.r_spread = entry.r_spread;
+  request.classes = entry.classes;
+  request.d10 = entry.d10;
+  request.d50 = entry.d50;
+  request.d90 = entry.d90;
+  request.method = entry.method;
   request.seed = entry.seed + static_cast<std::uint64_t>(packing);
   request.density = entry.density;
   return request;

@@ -19,6 +19,7 @@
 
 #include "base/user_error.h"
 #include "specimen/container.h"
+#include "specimen/size_distribution.h"
 #include "study/measurement.h"
 #include "study/test_definition.h"
 
@@ -35,9 +36,13 @@ struct SpecimenEntry {
   Dimensions size;      // m; those the shape has, and its notch
   double thickness =
       1;             // m; of 2D specimens (rectangle, disc): mass pi R^2 t rho, forces in newtons
-  double r_min = 0;  // m; smallest particle radius
+  double r_min = 0;               // m; smallest particle radius
   double r_ratio = 1.66;          // largest over smallest radius
-  std::string sizes = "uniform";  // a size distribution of the generator
+  std::string sizes = "uniform";  // a size distribution of the generator; its values:
+  double r_median = 0, r_spread = 0;  // m, 1; log-normal
+  std::vector<SizeClass> classes;     // discrete
+  double d10 = 0, d50 = 0, d90 = 0;   // m; d10-d50-d90
+  std::string method = "expansion";   // a way of packing
   double density = 2600;          // kg/m3; of the particles
   std::uint64_t seed = 1;
   Place place;
@@ -112,6 +117,9 @@ struct PublishedQuantity {
   double tolerance = 0;        // SI, or a share of the published value
   bool relative = true;
   bool judged = true;          // else only reported
+  // Published exponents of a power law, by parameter or specimen size; then only these are fitted,
+  // with one constant a group of cases.
+  std::map<std::string, double> exponents;
   Place place;
 };
 
@@ -121,8 +129,19 @@ struct PublishedCase {
   std::vector<double> values;                // in the order of Study::parameters, SI
   std::map<std::string, double> expected;    // by the name of a PublishedQuantity, SI
   std::map<std::string, double> expected_sd; // where it was published
+  std::string group;                         // cases of one material; may be empty
+  int packings = 0;                          // 0: the study's case_packings
+  bool heavy = false;                        // only run when asked for
+  std::map<std::string, double> sizes;       // m, 1; what its specimens have instead of the study's
+  // Tests made for a case with specimens of its own: the study's test -> the case's, which is a
+  // TestEntry as well, named "test@case".
+  std::map<std::string, std::string> own_tests;
   std::string source;
   Place place;
+  const std::string &test(const std::string &of_study) const {
+    const auto own = own_tests.find(of_study);
+    return own == own_tests.end() ? of_study : own->second;
+  }
 };
 
 struct Assumption {
@@ -142,7 +161,8 @@ struct Study {
   FitOptions options;
   std::vector<PublishedQuantity> quantities;
   std::vector<PublishedCase> cases;
-  int case_packings = 5;  // packings each case is run on
+  int case_packings = 5;        // packings each case is run on
+  bool relative_cases = false;  // show figures over those of the group's first case, too
   std::vector<Assumption> assumptions;
   std::vector<std::string> notes;
   std::optional<DataFolder> data;

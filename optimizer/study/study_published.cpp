@@ -2,6 +2,7 @@
 //
 // Job: the sections of the study file that hold a published table: [[quantities]] (its columns),
 // [[cases]] (its rows), [compare].
+#include <algorithm>
 #include <cmath>
 
 #include "base/units.h"
@@ -38,6 +39,81 @@ void read_tolerance(TomlTable &table, const toml::table &entry, const std::strin
     table.error("tolerance", "'tolerance' can't be " + shown(*node) + "; it must be above 0");
 }
 
+// What a case may give its specimens instead of the study's values: 1 where it has no dimension.
+struct SpecimenNumber {
+  const char *name, *unit;
+  double *(*of)(SpecimenEntry &);
+};
+const SpecimenNumber specimen_numbers[] = {
+    {"width", "m", [](SpecimenEntry &s) { return &s.size.width; }},
+    {"height", "m", [](SpecimenEntry &s) { return &s.size.height; }},
+    {"diameter", "m", [](SpecimenEntry &s) { return &s.size.diameter; }},
+    {"length", "m", [](SpecimenEntry &s) { return &s.size.length; }},
+    {"r_min", "m", [](SpecimenEntry &s) { return &s.r_min; }},
+    {"r_ratio", "1", [](SpecimenEntry &s) { return &s.r_ratio; }},
+};
+
+std::vector<std::string> names_of_numbers() {
+  std::vector<std::string> names;
+  for (const SpecimenNumber &number : specimen_numbers) names.push_back(number.name);
+  return names;
+}
+
+void read_exponents(TomlTable &table, const toml::table &given, const Study &study,
+                    PublishedQuantity &quantity) {
+  TomlTable exponents(given, "the exponents of quantity '" + quantity.name + "'", table.file(),
+                      table.errors());
+  std::vector<std::string> names = names_of(study.parameters);
+  for (const std::string &name : names_of_numbers()) names.push_back(name);
+  for (const std::string &name : names)
+    if (const auto value = exponents.quantity(name, "1")) quantity.exponents[name] = *value;
+  exponents.finish();
+}
+
+// `specimen = { diameter = "6 mm" }` in a case: tests and specimens of its own, so that everything
+// below this room sees nothing but tests.
+void read_own_specimen(TomlTable &table, const toml::table &given, Study &study,
+                       PublishedCase &one) {
+  TomlTable sizes(given, "the specimen of case '" + one.name + "'", table.file(), table.errors());
+  const std::size_t errors_before = table.errors().errors().size();
+  for (const SpecimenNumber &number : specimen_numbers)
+    if (const auto value = sizes.quantity(number.name, number.unit)) {
+      one.sizes[number.name] = *value;
+      if (*value <= 0)
+        sizes.error(number.name, std::string("'") + number.name + "' can't be " +
+                                     sizes.given(number.name) + "; it must be above 0");
+    }
+  sizes.finish();
+  if (table.errors().errors().size() != errors_before) return;
+  std::vector<std::string> wanted;
+  for (const PublishedQuantity &quantity : study.quantities)
+    if (std::find(wanted.begin(), wanted.end(), quantity.test) == wanted.end())
+      wanted.push_back(quantity.test);
+  for (const std::string &name : wanted) {
+    const TestEntry *found = find_entry(study.tests, name);
+    if (!found || !find_entry(study.specimens, found->specimen)) continue;  // reported already
+    TestEntry test = *found;
+    SpecimenEntry specimen = *find_entry(study.specimens, test.specimen);
+    test.name = found->name + "@" + one.name;
+    test.specimen = specimen.name = specimen.name + "@" + one.name;
+    test.place = specimen.place = one.place;
+    for (const SpecimenNumber &number : specimen_numbers) {
+      const auto size = one.sizes.find(number.name);
+      if (size == one.sizes.end()) continue;
+      double *value = number.of(specimen);
+      if (!(*value > 0)) {
+        sizes.error(number.name, "the specimen '" + found->specimen + "' has no '" + number.name + "'");
+        return;
+      }
+      *value = size->second;
+    }
+    check_specimen(table.errors(), specimen);
+    one.own_tests[found->name] = test.name;
+    if (!find_entry(study.specimens, specimen.name)) study.specimens.push_back(specimen);
+    study.tests.push_back(test);
+  }
+}
+
 void read_quantities(TomlTable &top, Study &study) {
   for (const toml::table *entry : top.tables("quantities")) {
     TomlTable table(*entry, "[[quantities]]", top.file(), top.errors());
@@ -67,6 +143,8 @@ void read_quantities(TomlTable &top, Study &study) {
     }
     read_tolerance(table, *entry, si_unit, quantity);
     quantity.judged = table.choice("judged", {"yes", "no"}) == "yes";
+    if (const toml::table *exponents = table.table("exponents"))
+      read_exponents(table, *exponents, study, quantity);
     table.finish();
     study.quantities.push_back(quantity);
   }
@@ -101,15 +179,17 @@ void read_published(TomlTable &top, Study &study) {
     one.place = table.place();
     one.name = read_name(table, study.cases);
     if (const toml::table *set = table.table("set", true)) read_set(table, *set, study, one);
-    const toml::table *expected = table.table("expect", true);
+    one.group = table.text("group");
+    one.packings = static_cast<int>(table.whole("packings", 0, 1, 1000));
+    one.heavy = table.choice("heavy", {"no", "yes"}) == "yes";
+    if (const toml::table *sizes = table.table("specimen")) read_own_specimen(table, *sizes, study, one);
+    const toml::table *expected = table.table("expect");
     if (expected && !study.quantities.empty())
       read_expected(table, *expected, study, "expect", one.expected);
     if (const toml::table *sd = table.table("expect_sd"))
       read_expected(table, *sd, study, "expect_sd", one.expected_sd);
     one.source = table.text("source");
     table.finish();
-    if (!study.quantities.empty() && one.expected.empty())
-      table.errors().add(table.place(), "the case '" + one.name + "' expects nothing; give at least one of: " + join(names_of(study.quantities)));
     study.cases.push_back(one);
   }
   if (!study.cases.empty() && study.quantities.empty())
@@ -117,6 +197,7 @@ void read_published(TomlTable &top, Study &study) {
   if (const toml::table *compare = top.table("compare")) {
     TomlTable table(*compare, "[compare]", top.file(), top.errors());
     study.case_packings = static_cast<int>(table.whole("packings", study.case_packings, 1, 1000));
+    study.relative_cases = table.choice("relative", {"no", "yes"}) == "yes";
     table.finish();
   }
 }

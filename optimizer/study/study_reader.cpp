@@ -71,19 +71,64 @@ void read_dimensions(TomlTable &table, SpecimenEntry &specimen) {
   }
 }
 
-// What only the generator knows: the size distributions there are, how many particles it takes.
-void check_with_generator(TomlTable &table, const SpecimenEntry &specimen) {
-  try {
-    check_request(specimen_request(specimen, 0));
-  } catch (const UserErrors &several) {
-    for (const UserError &error : several.errors())
-      table.errors().add(specimen.place, "specimen '" + specimen.name + "': " + error.text());
-  } catch (const UserError &error) {
-    table.errors().add(specimen.place, "specimen '" + specimen.name + "': " + error.text());
+// The size distribution with the keys it has, and the way of packing.
+void read_sizes(TomlTable &table, SpecimenEntry &specimen) {
+  specimen.sizes = table.has("sizes") ? table.text("sizes", true) : specimen.sizes;
+  const std::string &sizes = specimen.sizes;
+  const auto belongs = [&](const char *key, const char *to) {
+    if (sizes == to) return true;
+    if (!table.has(key)) return false;
+    table.errors().add(table.key_place(key), std::string("'") + key + "' belongs to sizes = \"" + to +
+                                                 "\"; here they are \"" + sizes + "\"");
+    table.know(key);
+    return false;
+  };
+  const auto known = size_distribution_names();
+  if (std::find(known.begin(), known.end(), sizes) == known.end()) {
+    for (const char *key : {"r_min", "r_ratio", "r_median", "r_spread", "classes", "d10", "d50", "d90"})
+      table.know(key);
+  } else {
+    if (belongs("r_min", "uniform")) specimen.r_min = positive_length(table, "r_min", true);
+    if (belongs("r_ratio", "uniform"))
+      specimen.r_ratio = table.quantity("r_ratio", "1").value_or(specimen.r_ratio);
+    if (specimen.r_ratio < 1)
+      table.error("r_ratio", "'r_ratio' (largest over smallest radius) can't be " +
+                                 canonical_number(specimen.r_ratio) + "; it must be at least 1");
+    if (belongs("r_median", "log-normal"))
+      specimen.r_median = positive_length(table, "r_median", true);
+    if (belongs("r_spread", "log-normal"))
+      specimen.r_spread = table.quantity("r_spread", "1", true).value_or(0.1);
+    if (belongs("classes", "discrete"))
+      for (const std::string &text : table.words("classes", true)) try {
+          specimen.classes.push_back(parse_size_class(text));
+        } catch (const UserError &error) {
+          table.error("classes", error.text());
+        }
+    for (const auto &[key, value] : {std::pair{"d10", &specimen.d10}, {"d50", &specimen.d50}, {"d90", &specimen.d90}})
+      if (belongs(key, "d10-d50-d90")) *value = positive_length(table, key, true);
   }
+  specimen.method = table.choice("method", packing_methods());
 }
 
 }  // namespace
+
+// What only the generator knows: the size distributions there are, how many particles it takes.
+void check_specimen(ErrorCollector &errors, SpecimenEntry &specimen) {
+  try {
+    const SpecimenRequest request = specimen_request(specimen, 0);
+    check_request(request);
+    if (specimen.sizes != "uniform") {  // as reports show it
+      const auto sizes = size_distribution(request.size_settings(), specimen.dimensions());
+      specimen.r_min = sizes->smallest();
+      specimen.r_ratio = sizes->largest() / sizes->smallest();
+    }
+  } catch (const UserErrors &several) {
+    for (const UserError &error : several.errors())
+      errors.add(specimen.place, "specimen '" + specimen.name + "': " + error.text());
+  } catch (const UserError &error) {
+    errors.add(specimen.place, "specimen '" + specimen.name + "': " + error.text());
+  }
+}
 
 void read_specimens(TomlTable &top, Study &study) {
   for (const toml::table *entry : top.tables("specimens", true)) {
@@ -96,17 +141,12 @@ void read_specimens(TomlTable &top, Study &study) {
     for (const std::string &name : container_shape_names())
       if (name == shape) specimen.shape = shape_from_name(name);
     read_dimensions(table, specimen);
-    specimen.r_min = positive_length(table, "r_min", true);
-    specimen.r_ratio = table.quantity("r_ratio", "1").value_or(specimen.r_ratio);
-    if (specimen.r_ratio < 1)
-      table.error("r_ratio", "'r_ratio' (largest over smallest radius) can't be " +
-                                 canonical_number(specimen.r_ratio) + "; it must be at least 1");
+    read_sizes(table, specimen);
     specimen.density = table.quantity("density", "kg/m3").value_or(specimen.density);
     if (specimen.density <= 0) table.error("density", "'density' must be above 0 kg/m3");
-    if (table.has("sizes")) specimen.sizes = table.text("sizes", true);
     specimen.seed = static_cast<std::uint64_t>(table.whole("seed", 1, 1, 2147483647));
     table.finish();
-    if (table.errors().errors().size() == errors_before) check_with_generator(table, specimen);
+    if (table.errors().errors().size() == errors_before) check_specimen(table.errors(), specimen);
     study.specimens.push_back(specimen);
   }
 }

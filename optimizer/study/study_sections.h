@@ -16,6 +16,7 @@
 namespace bondlab {
 
 void read_specimens(TomlTable &top, Study &study);
+void check_specimen(ErrorCollector &errors, SpecimenEntry &specimen);  // by the generator
 void read_tests(TomlTable &top, Study &study);  // and the test.toml of each
 void read_parameters(TomlTable &top, Study &study);
 void read_targets(TomlTable &top, Study &study);

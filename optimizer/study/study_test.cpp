@@ -5,8 +5,12 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
+#include <sstream>
 
+#include "base/table_file.h"
 #include "base/test_folder.h"
+#include "base/units.h"
 #include "study/input_folders.h"
 #include "study/specimen_request.h"
 
@@ -87,6 +91,69 @@ TEST(TestDefinition, LimitsAreInTheVariablesUnitAndTheDeckGetsItsOwn) {
   EXPECT_EQ(deck_number(angle, 30 * std::acos(-1.0) / 180), 30);
   EXPECT_EQ(why_not_allowed(angle, 1.2), "it must be at most 60 deg");
   EXPECT_EQ(why_not_allowed(angle, 0), "");
+}
+
+// A share that is declared in seconds can't be set by any study.
+TEST(TestDefinition, UnitsOfTheShippedTestsAreThoseTheirDecksState) {
+  const fs::path inputs = fs::path(__FILE__).parent_path() / "../../inputs";
+  std::size_t checked = 0;
+  for (const auto &folder : fs::directory_iterator(inputs)) {
+    if (!fs::exists(folder.path() / "test.toml")) continue;
+    ErrorCollector errors;
+    const TestDefinition test = read_test_definition(folder.path(), errors);
+    errors.throw_if_any();
+    std::istringstream deck(read_text_file(test.deck));
+    for (std::string line; std::getline(deck, line);) {
+      std::istringstream words(line);
+      std::string command, name, style, value, hash, comment;
+      if (!(words >> command >> name >> style >> value >> hash) || command != "variable" ||
+          style != "index" || hash != "#" || !std::getline(words >> std::ws, comment))
+        continue;
+      const auto variable = test.variables.find(name);
+      if (variable == test.variables.end() || !variable->second.choices.empty()) continue;
+      const std::string first = comment.substr(0, comment.find_first_of(", "));
+      const bool is_unit = comment.size() == first.size() || comment[first.size()] == ',';
+      bool known = is_unit;
+      if (is_unit) try {
+          to_si(1, first);
+        } catch (const UserError &) {
+          known = false;
+        }
+      const std::string &unit = variable->second.unit;
+      if (known && first != "m") {  // "m" is also Norton's exponent
+        EXPECT_TRUE(same_dimension(unit, first) || unit == "1")
+            << test.name << " " << name << ": " << unit;
+      } else if (!known) {
+        EXPECT_TRUE(unit == "1" || unit == "deg") << test.name << " " << name << ": " << unit;
+      }
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 200u);
+}
+
+TEST(ReadStudy, TakesEverySizeDistributionOfTheGenerator) {
+  const TestFolder folder;
+  fs::copy(kTestdata, folder / "study", fs::copy_options::recursive);
+  setenv("BONDLAB_INPUTS", (folder / "study").c_str(), 1);
+  const std::string good = read_text_file(folder / "study" / "good.toml"), from = "r_min = \"0.66 mm\"";
+  const auto with = [&](const std::string &lines) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), lines);
+    std::ofstream(folder / "study" / "sizes.toml") << text;
+    return read_study(folder / "study" / "sizes.toml").specimen("slab");
+  };
+  const SpecimenEntry normal = with("sizes = \"log-normal\"\nr_median = \"0.8 mm\"\nr_spread = 0.2\nmethod = \"filling\"");
+  EXPECT_EQ(specimen_request(normal, 0).r_median, 0.8e-3);
+  EXPECT_EQ(specimen_request(normal, 0).method, "filling");
+  EXPECT_LT(normal.r_min, 0.6e-3) << "the smallest radius, for people";
+  EXPECT_GT(normal.r_min * normal.r_ratio, 1.1e-3);
+  const SpecimenEntry classes = with("sizes = \"discrete\"\nclasses = [\"0.5 mm: 30 %\", \"0.8 mm: 70 %\"]");
+  ASSERT_EQ(specimen_request(classes, 0).classes.size(), 2u);
+  EXPECT_EQ(specimen_request(classes, 0).classes[1].r, 0.8e-3);
+  EXPECT_DOUBLE_EQ(classes.r_min, 0.5e-3);
+  const SpecimenEntry sieve = with("sizes = \"d10-d50-d90\"\nd10 = \"1 mm\"\nd50 = \"1.2 mm\"\nd90 = \"1.5 mm\"");
+  EXPECT_EQ(specimen_request(sieve, 0).d50, 1.2e-3);
 }
 
 TEST(ReadStudy, LooksUpNamesOrSaysWhichThereAre) {

@@ -60,6 +60,7 @@ class TomlTable {
   Place place_of(const toml::node &node) const;
   void error(const std::string &key, const std::string &text);  // at the value of `key`
   std::string given(const std::string &key) const;  // the value as written, for messages
+  void know(const std::string &key);                // finish() won't complain of it
   void finish();                                    // unknown keys
 
   const std::string &file() const { return file_; }
@@ -67,7 +68,6 @@ class TomlTable {
   ErrorCollector &errors() { return errors_; }
 
  private:
-  void know(const std::string &key);
   const toml::node *get(const std::string &key, bool required, const char *example);
 
   const toml::table &table_;
