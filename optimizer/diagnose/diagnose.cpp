@@ -41,7 +41,7 @@ class Work {
   Explanation explain(const std::vector<std::size_t> &effects);
   std::vector<Spot> beyond_null(const Omnibus::Prepared &prepared,
                                 const Eigen::VectorXd &residual) const;
-  double second_score(const Refit &fit) const;
+  double second_score(const Refit &fit, const Linearisation &model) const;
   void name_single(const std::vector<Explanation> &singles, std::size_t best);
   bool name_pair(const ScoreTable &scores, const std::vector<Explanation> &singles);
   void resample(const ScoreTable &scores, const Eigen::VectorXd &residual, std::size_t best);
@@ -77,8 +77,8 @@ std::vector<Spot> Work::beyond_null(const Omnibus::Prepared &prepared,
 }
 
 // The largest score of any further effect once those of the fit are on.
-double Work::second_score(const Refit &fit) const {
-  Linearisation rest = out_.model;
+double Work::second_score(const Refit &fit, const Linearisation &model) const {
+  Linearisation rest = model;
   for (const auto effect : fit.effects)
     rest.traces.col(static_cast<Eigen::Index>(effect)).setZero();
   const Projection fitted(fit.columns);
@@ -89,11 +89,25 @@ double Work::second_score(const Refit &fit) const {
 Explanation Work::explain(const std::vector<std::size_t> &effects) {
   Explanation out;
   out.fit = refit(prober_, whitening_, setup_.catalogue, out_.model, effects);
+  Linearisation model = out_.model;
+  // What the model does not know of its rows grows with the effect's size, and so is known only
+  // once that is.
+  for (int pass = 0; pass < 2 && out.fit.ok; ++pass) {
+    const Eigen::MatrixXd unknown = prober_.uncertainty(out.fit.point);
+    if (unknown.size() == 0) break;
+    const Whitening wider(evidence_, unknown);
+    model = linearise(prober_, wider, out_.model.point);
+    out.fit = refit(prober_, wider, setup_.catalogue, model, effects);
+  }
   if (!out.fit.ok) return out;
+  Tried tried{effects, {}, out.fit.deviance};
+  for (const auto effect : effects)
+    tried.amplitudes.push_back(out.fit.point.amplitude(static_cast<Eigen::Index>(effect)));
+  out_.tried.push_back(tried);
   const Projection fitted(out.fit.columns);
   const Omnibus::Prepared prepared(*omnibus_, fitted);
   out.remains = beyond_null(prepared, fitted.off(out.fit.residual));
-  const double asked = second_score(out.fit);
+  const double asked = second_score(out.fit, model);
   out.complete = out.remains.empty() && asked < setup_.null.trace_strict;
   if (asked >= setup_.null.trace_strict)
     out.remains.push_back({"a further effect of the catalogue", asked});
@@ -110,7 +124,7 @@ NamedEffect Work::named(const Refit &fit, std::size_t index) const {
   out.size = amplitude * unit;
   out.low = (amplitude - interval * sd) * unit;
   out.high = (amplitude + interval * sd) * unit;
-  out.gain = out_.before.chi2 - fit.chi2;
+  out.gain = out_.before.deviance - fit.deviance;
   out.p = p_value(setup_.null.trace, std::sqrt(std::max(0.0, out.gain)));
   return out;
 }
@@ -136,16 +150,16 @@ void Work::resample(const ScoreTable &scores, const Eigen::VectorXd &residual, s
 void Work::name_single(const std::vector<Explanation> &singles, std::size_t best) {
   const Refit &winner = singles[best].fit;
   out_.after = winner;
-  out_.realised_gain = out_.before.chi2 - winner.chi2;
+  out_.realised_gain = out_.before.deviance - winner.deviance;
   out_.effects = {named(winner, 0)};
   out_.stability = wins_[winner.effects.front()];
   double margin = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < singles.size(); ++i) {
     if (i == best || !singles[i].fit.ok) continue;
-    const double behind = singles[i].fit.chi2 - winner.chi2;
+    const double behind = singles[i].fit.deviance - winner.deviance;
     const bool rival = behind < margin_needed ||
                        (out_.stability < stable && wins_[singles[i].fit.effects.front()] > 0.05);
-    if (rival && out_.before.chi2 - singles[i].fit.chi2 > 0) {
+    if (rival && out_.before.deviance - singles[i].fit.deviance > 0) {
       out_.effects.push_back(named(singles[i].fit, 0));
       out_.effects.back().margin = behind;
     } else {
@@ -164,7 +178,7 @@ bool Work::name_pair(const ScoreTable &scores, const std::vector<Explanation> &s
   for (const auto &pair : pairs) explanations.push_back(explain({pair.first, pair.second}));
   const Explanation *best = nullptr;
   for (const auto &e : explanations)
-    if (e.fit.admissible() && (!best || e.fit.chi2 < best->fit.chi2)) best = &e;
+    if (e.fit.admissible() && (!best || e.fit.deviance < best->fit.deviance)) best = &e;
   if (!best) return false;
   out_.after = best->fit;
   out_.remains = best->remains;
@@ -172,23 +186,23 @@ bool Work::name_pair(const ScoreTable &scores, const std::vector<Explanation> &s
   // Either member alone must lose more than what chance gives the best of a catalogue.
   const double needed = setup_.null.trace_strict * setup_.null.trace_strict;
   for (const auto effect : best->fit.effects) {
-    double alone = out_.before.chi2;
+    double alone = out_.before.deviance;
     for (const auto &single : singles)
       if (single.fit.ok && single.fit.effects.front() == effect)
-        alone = std::min(alone, single.fit.chi2);
-    if (alone - best->fit.chi2 < needed) return false;
+        alone = std::min(alone, single.fit.deviance);
+    if (alone - best->fit.deviance < needed) return false;
   }
   double margin = std::numeric_limits<double>::infinity();
   std::vector<const Explanation *> rivals;
   for (const auto &e : explanations) {
     if (&e == best || !e.fit.admissible()) continue;
-    const double behind = e.fit.chi2 - best->fit.chi2;
+    const double behind = e.fit.deviance - best->fit.deviance;
     if (behind < margin_needed)
       rivals.push_back(&e);
     else
       margin = std::min(margin, behind);
   }
-  out_.realised_gain = out_.before.chi2 - best->fit.chi2;
+  out_.realised_gain = out_.before.deviance - best->fit.deviance;
   for (std::size_t i = 0; i < 2; ++i) out_.effects.push_back(named(best->fit, i));
   for (const auto *rival : rivals)
     for (std::size_t i = 0; i < 2; ++i) {
@@ -197,7 +211,7 @@ bool Work::name_pair(const ScoreTable &scores, const std::vector<Explanation> &s
                                      [&](const NamedEffect &e) { return e.effect == effect; });
       if (known) continue;
       out_.effects.push_back(named(rival->fit, i));
-      out_.effects.back().margin = rival->fit.chi2 - best->fit.chi2;
+      out_.effects.back().margin = rival->fit.deviance - best->fit.deviance;
     }
   out_.margin = margin;
   out_.verdict = rivals.empty() ? Verdict::two : Verdict::set;
@@ -207,7 +221,7 @@ bool Work::name_pair(const ScoreTable &scores, const std::vector<Explanation> &s
 Diagnosis Work::run(const ModelPoint &start) {
   out_.noise = whitening_.noise();
   out_.false_alarm = setup_.null.rate;
-  out_.model = fit_base(prober_, whitening_, setup_.catalogue, start, out_.before);
+  out_.model = fit_base(prober_, evidence_, setup_.catalogue, start, out_.before, whitening_);
   out_.after = out_.before;
   omnibus_ =
       std::make_unique<Omnibus>(evidence_, whitening_, setup_.parameters, out_.model.jacobian);
@@ -244,11 +258,11 @@ Diagnosis Work::run(const ModelPoint &start) {
   std::size_t best = singles.size();
   for (std::size_t i = 0; i < singles.size(); ++i)
     if (singles[i].fit.admissible() &&
-        (best == singles.size() || singles[i].fit.chi2 < singles[best].fit.chi2))
+        (best == singles.size() || singles[i].fit.deviance < singles[best].fit.deviance))
       best = i;
   if (best < singles.size()) {
     const Explanation &winner = singles[best];
-    const double gain = out_.before.chi2 - winner.fit.chi2;
+    const double gain = out_.before.deviance - winner.fit.deviance;
     const bool significant = std::sqrt(std::max(0.0, gain)) > setup_.null.trace_alarm;
     out_.remains = winner.remains;
     out_.after = winner.fit;
@@ -289,9 +303,23 @@ Linearisation fit_base(Prober &prober, const Whitening &whitening,
   return linearise(prober, whitening, base.point);
 }
 
+Linearisation fit_base(Prober &prober, const Evidence &evidence,
+                       const std::vector<EffectEntry> &catalogue, const ModelPoint &start,
+                       Refit &base, Whitening &whitening) {
+  Linearisation model = fit_base(prober, whitening, catalogue, start, base);
+  const Eigen::MatrixXd unknown = prober.uncertainty(base.point);
+  if (unknown.size() == 0) return model;
+  whitening = Whitening(evidence, unknown);
+  return fit_base(prober, whitening, catalogue, base.point, base);
+}
+
 Diagnosis diagnose(Prober &prober, const Evidence &evidence, const DiagnosisSetup &setup,
                    const ModelPoint &start, const DiagnoseOptions &options) {
-  return Work(prober, evidence, setup, options).run(start);
+  Diagnosis out = Work(prober, evidence, setup, options).run(start);
+  double best = out.before.deviance;
+  for (const auto &tried : out.tried) best = std::min(best, tried.behind);
+  for (auto &tried : out.tried) tried.behind -= best;
+  return out;
 }
 
 }  // namespace bondlab::diagnose

@@ -12,6 +12,8 @@
 //   Else pairs: all by score, the best by refit, and a pair is named if nothing is left, if either
 //   member alone loses more than the threshold of a single effect, and with the same margin to the
 //   next pair. Else it is not in the catalogue.
+//   Explanations are compared by deviance, chi squared plus the log determinant of the rows'
+//   covariance, which is chi squared alone where the model is exact.
 // Why the order: a single cause is tried before two, and what the catalogue cannot explain is said
 //   rather than given the nearest name.
 // Units: standardised rows; sizes in the effects' own units. Failure: a base refit that fails is a
@@ -43,6 +45,13 @@ struct Spot {
   double score = 0;
 };
 
+// What the refits tried, and how far each was behind the best in deviance.
+struct Tried {
+  std::vector<std::size_t> effects;
+  std::vector<double> amplitudes;
+  double behind = 0;
+};
+
 struct Diagnosis {
   Verdict verdict = Verdict::nothing;
   std::vector<NamedEffect> effects;
@@ -55,6 +64,7 @@ struct Diagnosis {
   double predicted_gain = 0, realised_gain = 0;
   std::vector<double> smallest_size;  // one an effect: seen with 90 %; infinite when hidden
   Refit before, after;                // `after` as `before` when nothing is named
+  std::vector<Tried> tried;
   NoiseEstimate noise;
   Linearisation model;  // at the base refit, for isolability and advice
 };
@@ -80,5 +90,10 @@ Diagnosis diagnose(Prober &prober, const Evidence &evidence, const DiagnosisSetu
 Linearisation fit_base(Prober &prober, const Whitening &whitening,
                        const std::vector<EffectEntry> &catalogue, const ModelPoint &start,
                        Refit &base);
+
+// The same, and `whitening` made to hold what the prober does not know of its rows there.
+Linearisation fit_base(Prober &prober, const Evidence &evidence,
+                       const std::vector<EffectEntry> &catalogue, const ModelPoint &start,
+                       Refit &base, Whitening &whitening);
 
 }  // namespace bondlab::diagnose

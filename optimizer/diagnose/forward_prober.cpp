@@ -237,11 +237,7 @@ Eigen::VectorXd ForwardProber::rows_on(const ModelPoint &point, int packing) con
 }
 
 std::vector<Eigen::VectorXd> ForwardProber::probe(const std::vector<ModelPoint> &batch) {
-  std::vector<Wanted> list;
-  for (const auto &point : batch)
-    for (const auto &s : series_)
-      for (const int packing : packings_) list.push_back(wanted(point, s, packing));
-  make(list);
+  prepare(batch, packings_);
   std::vector<Eigen::VectorXd> out;
   for (const auto &point : batch) {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(rows_);
@@ -251,12 +247,18 @@ std::vector<Eigen::VectorXd> ForwardProber::probe(const std::vector<ModelPoint> 
   return out;
 }
 
+void ForwardProber::prepare(const std::vector<ModelPoint> &points,
+                            const std::vector<int> &packings) {
+  std::vector<Wanted> list;
+  for (const auto &point : points)
+    for (const auto &s : series_)
+      for (const int packing : packings) list.push_back(wanted(point, s, packing));
+  make(list);
+}
+
 Eigen::MatrixXd ForwardProber::by_packing(const ModelPoint &point,
                                           const std::vector<int> &packings) {
-  std::vector<Wanted> list;
-  for (const auto &s : series_)
-    for (const int packing : packings) list.push_back(wanted(point, s, packing));
-  make(list);
+  prepare({point}, packings);
   Eigen::MatrixXd out(static_cast<Eigen::Index>(packings.size()), rows_);
   for (std::size_t i = 0; i < packings.size(); ++i)
     out.row(static_cast<Eigen::Index>(i)) = rows_on(point, packings[i]).transpose();

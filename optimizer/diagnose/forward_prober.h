@@ -59,10 +59,16 @@ class ForwardProber : public Prober {
   double parameter_step(std::size_t parameter) const override { return steps_[parameter]; }
   std::vector<Eigen::VectorXd> probe(const std::vector<ModelPoint> &batch) override;
 
+  // Makes all runs of these points on these packings as one batch, for by_packing() and curves().
+  void prepare(const std::vector<ModelPoint> &points, const std::vector<int> &packings);
+
   // Rows of each packing alone, packings x rows, at one point; runs that failed have NaN.
   Eigen::MatrixXd by_packing(const ModelPoint &point, const std::vector<int> &packings);
   // Curves of one point on the first packing, one a series.
   std::vector<ForwardOutcome> curves(const ModelPoint &point, int packing);
+
+  // Amplitudes of this effect count in this size from now on.
+  void rescale(std::size_t effect, double switch_on) { switch_on_[effect] = switch_on; }
 
   ModelPoint start() const;
   std::vector<double> physical(const ModelPoint &point) const;

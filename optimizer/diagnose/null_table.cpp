@@ -26,8 +26,8 @@ double p_value(const std::vector<double> &sorted, double value) {
 }
 
 NullTable make_null_table(const Omnibus &omnibus, const Linearisation &model,
-                          const std::vector<EffectEntry> &catalogue, const Evidence &evidence,
-                          const NoiseEstimate &noise, double rate, int draws, std::uint64_t seed) {
+                          const std::vector<EffectEntry> &catalogue, const NullSource &source,
+                          double rate, int draws, std::uint64_t seed) {
   NullTable table;
   table.rate = rate;
   const Projection fitted(model.jacobian);
@@ -35,17 +35,19 @@ NullTable make_null_table(const Omnibus &omnibus, const Linearisation &model,
   const ScoreTable scores(fitted, model, catalogue);
   RandomStream random(seed, 5);
   std::vector<std::pair<double, double>> pairs;
-  Eigen::VectorXd draw(model.jacobian.rows());
   for (int i = 0; i < draws; ++i) {
-    for (Eigen::Index row = 0; row < draw.size(); ++row) draw(row) = random.normal();
-    for (const auto &[test, dof] : noise.dof_by_test) {
-      // sd of an estimated scale: 1 / sqrt(2 dof), normal when there are dozens of them
-      const double scale = 1 + random.normal() / std::sqrt(2 * std::max(10.0, dof));
-      for (const auto &series : evidence.series)
-        if (series.test == test) draw.segment(series.first, series.count) /= std::max(0.3, scale);
+    const NullDraw draw = source(random);
+    if (draw.jacobian.size() == 0) {
+      const Eigen::VectorXd residual = fitted.off(draw.residual);
+      pairs.emplace_back(prepared.largest(residual).score, scores.largest(residual));
+      continue;
     }
-    const Eigen::VectorXd residual = fitted.off(draw);
-    pairs.emplace_back(prepared.largest(residual).score, scores.largest(residual));
+    const Projection own(draw.jacobian);
+    Linearisation rewhitened;
+    rewhitened.traces = draw.traces;
+    const Eigen::VectorXd residual = own.off(draw.residual);
+    pairs.emplace_back(Omnibus::Prepared(omnibus, own).largest(residual).score,
+                       ScoreTable(own, rewhitened, catalogue).largest(residual));
   }
   for (const auto &[o, t] : pairs) table.omnibus.push_back(o), table.trace.push_back(t);
   std::sort(table.omnibus.begin(), table.omnibus.end());
@@ -63,6 +65,26 @@ NullTable make_null_table(const Omnibus &omnibus, const Linearisation &model,
     (static_cast<double>(alarms) > rate * draws ? high : low) = each;
   }
   return table;
+}
+
+NullTable make_null_table(const Omnibus &omnibus, const Linearisation &model,
+                          const std::vector<EffectEntry> &catalogue, const Evidence &evidence,
+                          const NoiseEstimate &noise, double rate, int draws, std::uint64_t seed) {
+  const NullSource source = [&](RandomStream &random) {
+    NullDraw draw;
+    draw.residual.resize(model.jacobian.rows());
+    for (Eigen::Index row = 0; row < draw.residual.size(); ++row)
+      draw.residual(row) = random.normal();
+    for (const auto &[test, dof] : noise.dof_by_test) {
+      // sd of an estimated scale: 1 / sqrt(2 dof), normal when there are dozens of them
+      const double scale = 1 + random.normal() / std::sqrt(2 * std::max(10.0, dof));
+      for (const auto &series : evidence.series)
+        if (series.test == test)
+          draw.residual.segment(series.first, series.count) /= std::max(0.3, scale);
+    }
+    return draw;
+  };
+  return make_null_table(omnibus, model, catalogue, source, rate, draws, seed);
 }
 
 }  // namespace bondlab::diagnose

@@ -15,8 +15,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
+#include "base/random.h"
 #include "diagnose/omnibus.h"
 #include "diagnose/refit.h"
 
@@ -32,6 +34,19 @@ struct NullTable {
 // Share of `sorted` at or above `value`, at least 1 / (n + 1).
 double p_value(const std::vector<double> &sorted, double value);
 
+// One data set of noise alone, whitened as that data set's own noise estimate has it, and the model
+// in the same units.
+struct NullDraw {
+  Eigen::VectorXd residual;
+  Eigen::MatrixXd jacobian, traces;  // empty: those of the model
+};
+using NullSource = std::function<NullDraw(RandomStream &)>;
+
+NullTable make_null_table(const Omnibus &omnibus, const Linearisation &model,
+                          const std::vector<EffectEntry> &catalogue, const NullSource &source,
+                          double rate, int draws, std::uint64_t seed);
+
+// Draws with the scatter as stated, and its scale estimated with the dof there are.
 NullTable make_null_table(const Omnibus &omnibus, const Linearisation &model,
                           const std::vector<EffectEntry> &catalogue, const Evidence &evidence,
                           const NoiseEstimate &noise, double rate, int draws, std::uint64_t seed);

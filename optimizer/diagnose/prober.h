@@ -31,6 +31,9 @@ class Prober {
   virtual std::size_t effects() const = 0;
   virtual double parameter_step(std::size_t parameter) const = 0;  // in z, of the differences
   virtual std::vector<Eigen::VectorXd> probe(const std::vector<ModelPoint> &batch) = 0;
+  // Covariance (rows x rows, not whitened) of what the prober does not know of its own rows at a
+  // point, over and above the scatter that the evidence states. Empty: none, the model is exact.
+  virtual Eigen::MatrixXd uncertainty(const ModelPoint &) { return {}; }
 };
 
 }  // namespace bondlab::diagnose

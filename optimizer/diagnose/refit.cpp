@@ -181,6 +181,7 @@ Refit refit(Prober &prober, const Whitening &whitening, const std::vector<Effect
   }
   result.ok = true;
   result.chi2 = chi2;
+  result.deviance = chi2 + whitening.log_determinant();
   result.residual = residual;
   result.columns = columns;
   Eigen::MatrixXd normal = columns.transpose() * columns;

@@ -39,6 +39,7 @@ struct Refit {
   std::vector<std::size_t> effects;  // switched on
   std::vector<bool> at_bound;        // one an effect in `effects`
   double chi2 = 0;
+  double deviance = 0;  // chi2 plus the log determinant of the rows' covariance
   Eigen::VectorXd residual;
   Eigen::MatrixXd columns;     // Jacobian and the traces of `effects` at the point
   Eigen::MatrixXd covariance;  // of z and amplitudes; bounds ignored

@@ -10,20 +10,29 @@
 #include <numeric>
 
 #include "base/random.h"
+#include "base/units.h"
 #include "diagnose/null_table.h"
 #include "diagnose/omnibus.h"
+#include "diagnose/row_selection.h"
+#include "diagnose/study_null.h"
 
 namespace bondlab::diagnose {
 
 namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
-constexpr int null_draws = 4000, placebo_draws = 200;
+constexpr int null_draws = 2000, placebo_draws = 200, most_moves = 5;
+constexpr std::size_t least_for_holdout = 5;
+constexpr double longest_move = 2.5;  // in steps of the emulator
+constexpr int most_rounds = 3;
+constexpr double contender = 40;            // behind the best in deviance
+constexpr double size_low = 5, size_aim = 8;  // noise units that an effect is switched on at
+constexpr double longest_growth = 8;
 constexpr double alarm_rate = 0.01, table_size = 10;
 
 std::string choose_holdout(const std::vector<MeasuredSeries> &series, const std::string &wanted) {
   if (wanted == "none") return "";
-  if (wanted.empty()) return series.size() >= 3 ? series.back().probed.name : "";
+  if (wanted.empty()) return series.size() >= least_for_holdout ? series.back().probed.name : "";
   std::vector<std::string> names;
   for (const auto &s : series) names.push_back(s.probed.name);
   if (std::find(names.begin(), names.end(), wanted) == names.end())
@@ -34,41 +43,31 @@ std::string choose_holdout(const std::vector<MeasuredSeries> &series, const std:
   return wanted;
 }
 
-std::vector<int> first_packings(int count) {
-  std::vector<int> out(static_cast<std::size_t>(count));
-  std::iota(out.begin(), out.end(), 0);
-  return out;
-}
-
 double rms(const Eigen::VectorXd &residual) {
   return residual.size() == 0 ? nan_value
                               : std::sqrt(residual.squaredNorm() /
                                           static_cast<double>(residual.size()));
 }
 
+// The rows of a data set among the model's, and those that are not held out.
 struct Parts {
-  std::vector<MeasuredSeries> all, training;
-  Eigen::MatrixXd scatter_all, scatter_training;
+  std::vector<MeasuredSeries> training;
+  std::vector<Eigen::Index> all_rows, training_rows;
 };
 
-Parts split(const std::vector<MeasuredSeries> &all, const Eigen::MatrixXd &scatter,
+Parts split(const std::vector<MeasuredSeries> &all, const std::vector<Eigen::Index> &rows,
             const std::string &holdout) {
   Parts out;
-  out.all = all;
-  out.scatter_all = scatter;
-  std::vector<Eigen::Index> kept;
-  Eigen::Index first = 0;
+  out.all_rows = rows;
+  auto next = rows.begin();
   for (const auto &s : all) {
-    const auto count = static_cast<Eigen::Index>(s.probed.quantities.size());
+    const auto end = next + static_cast<std::ptrdiff_t>(s.probed.quantities.size());
     if (s.probed.name != holdout) {
       out.training.push_back(s);
-      for (Eigen::Index j = 0; j < count; ++j) kept.push_back(first + j);
+      out.training_rows.insert(out.training_rows.end(), next, end);
     }
-    first += count;
+    next = end;
   }
-  out.scatter_training.resize(scatter.rows(), static_cast<Eigen::Index>(kept.size()));
-  for (std::size_t j = 0; j < kept.size(); ++j)
-    out.scatter_training.col(static_cast<Eigen::Index>(j)) = scatter.col(kept[j]);
   return out;
 }
 
@@ -122,11 +121,12 @@ double placebo_gap(const Linearisation &model, std::size_t effect, const Eigen::
   return std::sqrt(sum / placebo_draws);
 }
 
-void measure_gaps(ForwardProber &prober, const Evidence &evidence, StudyDiagnosis &out,
-                  std::uint64_t seed) {
-  const Whitening whitening(evidence);
+// `rows`: the model's at the fits before and after, all series.
+void measure_gaps(Prober &model, const Evidence &evidence, const std::vector<Eigen::VectorXd> &rows,
+                  StudyDiagnosis &out, std::uint64_t seed) {
   const auto &d = out.diagnosis;
-  const auto rows = prober.probe({d.before.point, d.after.point});
+  // One yardstick for both: what the model does not know of its rows after.
+  const Whitening whitening(evidence, model.uncertainty(d.after.point));
   const Eigen::VectorXd before = whitening.residual(rows[0]), after = whitening.residual(rows[1]);
   Eigen::VectorXd training = Eigen::VectorXd::Ones(before.size());
   for (const auto &s : evidence.series) {
@@ -137,17 +137,20 @@ void measure_gaps(ForwardProber &prober, const Evidence &evidence, StudyDiagnosi
     out.by_series.push_back(gap);
     if (held) out.gap.holdout_before = gap.before, out.gap.holdout_after = gap.after;
   }
-  out.gap.before = std::sqrt(before.cwiseProduct(training).squaredNorm() / training.sum());
-  out.gap.after = std::sqrt(after.cwiseProduct(training).squaredNorm() / training.sum());
+  const double chi2_before = before.cwiseProduct(training).squaredNorm(),
+               chi2_after = after.cwiseProduct(training).squaredNorm();
+  out.gap.before = std::sqrt(chi2_before / training.sum());
+  out.gap.after = std::sqrt(chi2_after / training.sum());
+  out.confirmed_gain = chi2_before - chi2_after;
   const double fitted = static_cast<double>(d.after.columns.cols());
   out.gap.noise_floor = std::sqrt(std::max(0.0, 1 - fitted / training.sum()));
   if (d.effects.empty()) return;
-  const Linearisation model = linearise(prober, whitening, d.before.point);
+  Linearisation linear = linearise(model, whitening, d.before.point);
+  linear.residual = before;
   const Eigen::VectorXd judged =
       out.holdout.empty() ? training
                           : Eigen::VectorXd(Eigen::VectorXd::Ones(training.size()) - training);
-  out.gap.placebo_after =
-      placebo_gap(model, d.effects.front().effect, training, judged, seed);
+  out.gap.placebo_after = placebo_gap(linear, d.effects.front().effect, training, judged, seed);
 }
 
 void advise_on(StudyDiagnosis &out) {
@@ -166,61 +169,110 @@ void advise_on(StudyDiagnosis &out) {
                          out.catalogue[d.effects.front().effect].separating_test);
 }
 
+// Moves the model's centre until the fit of the parameters alone lies within the steps made.
+void settle(StudyModel &model, const std::vector<MeasuredSeries> &all, const std::string &holdout,
+            const std::function<void(const std::string &)> &say) {
+  for (int move = 0;; ++move) {
+    auto series = all;
+    const auto rows = keep_modelled(series, model.engine().series());
+    const Parts parts = split(series, rows, holdout);
+    auto &emulated = model.emulated();
+    RowSelection prober(emulated, parts.training_rows);
+    const Evidence evidence = evidence_of(
+        model.study(), parts.training, columns_of(emulated.centre_rows(), parts.training_rows));
+    Whitening whitening(evidence);
+    Refit fit;
+    fit_base(prober, evidence, model.catalogue(), emulated.centre(), fit, whitening);
+    if (emulated.covers(fit.point) || move == most_moves) return;
+    ModelPoint next = emulated.centre();
+    for (std::size_t i = 0; i < emulated.parameters(); ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      const double longest = longest_move * emulated.parameter_step(i);
+      next.z(k) += std::clamp(fit.point.z(k) - next.z(k), -longest, longest);
+    }
+    say(fmt::format("the fit is at chi squared {:.1f} of {} rows, beyond the steps made: centre "
+                    "moved",
+                    fit.chi2, parts.training_rows.size()));
+    model.move_to(next);
+  }
+}
+
+// Effects among the contenders whose size lies beyond what the emulator was made from, with the
+// switch-on size that puts it between the two sizes run.
+std::map<std::size_t, double> beyond_what_was_run(StudyModel &model, const Diagnosis &d) {
+  std::map<std::size_t, double> out;
+  for (const auto &tried : d.tried) {
+    if (tried.behind > contender) continue;
+    for (std::size_t i = 0; i < tried.effects.size(); ++i) {
+      const auto k = tried.effects[i];
+      const auto &entry = model.catalogue()[k];
+      const double a = tried.amplitudes[i];
+      if (model.emulated().covers(k, a)) continue;
+      const double bound = a > 0 ? entry.largest : -entry.lowest;
+      const double grown = std::clamp(std::abs(a) / 1.5, 1.0 / longest_growth, longest_growth);
+      double size = entry.switch_on * grown;
+      if (bound > 0 && std::abs(size) > std::abs(bound)) size = std::copysign(bound, size);
+      if (std::abs(size - entry.switch_on) > 0.05 * std::abs(entry.switch_on)) out[k] = size;
+    }
+  }
+  return out;
+}
+
+// Effects whose change at switch-on is lost in noise are taken at a size that is not: differences
+// are no better than what they rise above.
+void scale_to_noise(StudyModel &model, Prober &prober, const Evidence &evidence,
+                    const std::function<void(const std::string &)> &say) {
+  const Whitening plan(without_data(evidence));
+  for (int round = 0; round < 2; ++round) {
+    const Linearisation linear = linearise(prober, plan, model.emulated().centre());
+    const ScoreTable scores(Projection(linear.jacobian), linear, model.catalogue());
+    std::map<std::size_t, double> larger;
+    for (std::size_t k = 0; k < model.catalogue().size(); ++k) {
+      const auto &entry = model.catalogue()[k];
+      if (scores.norm(k) >= size_low || linear.dead[k]) continue;
+      const double wanted = std::min(longest_growth, size_aim / std::max(0.1, scores.norm(k)));
+      const double bound = std::abs(entry.largest);
+      const double size = std::copysign(std::min(std::abs(entry.switch_on) * wanted, bound),
+                                        entry.switch_on);
+      if (std::abs(size) > 1.2 * std::abs(entry.switch_on)) larger[k] = size;
+    }
+    if (larger.empty()) return;
+    say(fmt::format("{} effects hardly rise above noise at their switch-on size: taken larger",
+                    larger.size()));
+    model.rescale(larger);
+  }
+}
+
 }  // namespace
 
-StudyDiagnosis diagnose_study(const Study &study, const std::vector<EffectDefinition> &effects,
-                              const ModelFactory &factory, const StudyDiagnosisOptions &options,
-                              const StudySinks &sinks) {
+StudyDiagnosis diagnose_measured(StudyModel &model, std::vector<MeasuredSeries> series,
+                                 const StudyDiagnosisOptions &options, bool confirm,
+                                 const StudySinks &sinks) {
   const auto say = [&](const std::string &line) {
     if (sinks.say) sinks.say(line);
   };
-  if (study.parameters.empty())
-    throw UserError(Place{study.file.string(), 0, 0}, "a diagnosis needs [[parameters]] to fit");
+  const Study &study = model.study();
+  auto &emulated = model.emulated();
   StudyDiagnosis out;
-  out.effects = effects_of_study(study, effects);
-  out.catalogue = catalogue_of(study, out.effects);
+  out.effects = model.effects();
+  out.catalogue = model.catalogue();
   out.gap.holdout_before = out.gap.holdout_after = out.gap.placebo_after = nan_value;
-  std::vector<MeasuredSeries> series = measured_series(study);
   out.holdout = choose_holdout(series, options.holdout);
-  say(out.holdout.empty() ? "held out: nothing (too few tests, or as asked)"
-                          : "held out, not used until the end: " + out.holdout);
-  const Study expanded = with_word_tests(study, out.effects);
-  const auto model = factory(expanded);
-  const auto packings = first_packings(options.packings);
-  const auto scatter_packings = first_packings(std::max(options.scatter, options.packings));
-  const auto prober_of = [&](const std::vector<MeasuredSeries> &list) {
-    auto prober = std::make_unique<ForwardProber>(expanded, out.effects, *model, probed(list), packings);
-    prober->set_progress(sinks.progress);
-    return prober;
-  };
-
-  // A first fit, with the scatter at the start; then the scatter where it ended.
-  auto prober = prober_of(series);
-  ModelPoint at = prober->start();
-  Eigen::MatrixXd scatter = prober->by_packing(at, scatter_packings);
-  out.runs += prober->runs();
-  keep_simulated(series, scatter);
-  Parts parts = split(series, scatter, out.holdout);
-  prober = prober_of(parts.training);
-  {
-    const Whitening whitening(
-        evidence_of(study, parts.training, parts.scatter_training, packings.size()));
-    const Refit first = refit(*prober, whitening, out.catalogue,
-                              linearise(*prober, whitening, at, false), {});
-    if (!first.ok) throw UserError("the model gives no figures at the study's start");
-    at = first.point;
-  }
-  auto full = prober_of(series);
-  scatter = full->by_packing(at, scatter_packings);
-  if (!scatter.allFinite())
-    throw UserError("a packing gives no figures at the fitted point: its scatter can't be measured");
-  parts = split(series, scatter, out.holdout);
-  const Evidence evidence =
-      evidence_of(study, parts.training, parts.scatter_training, packings.size());
+  const int runs_before = model.runs();
+  const auto all_rows = keep_modelled(series, model.engine().series());
+  const Parts parts = split(series, all_rows, out.holdout);
+  if (parts.training.empty())
+    throw UserError("nothing but the series held out can be compared with the simulation");
+  RowSelection prober(emulated, parts.training_rows);
+  const Eigen::MatrixXd by_packing = columns_of(emulated.centre_rows(), parts.training_rows);
+  const Evidence evidence = evidence_of(study, parts.training, by_packing);
   out.rows = evidence.rows;
+  for (std::size_t k = 0; k < out.catalogue.size(); ++k)
+    out.trace_noise.push_back(emulated.trace_noise(k));
 
+  const ModelPoint &at = emulated.centre();
   const Whitening plan(without_data(evidence));
-  const Linearisation planned = linearise(*prober, plan, at);
+  const Linearisation planned = linearise(prober, plan, at);
   isolability(ScoreTable(Projection(planned.jacobian), planned, out.catalogue), out);
   for (const auto &pair : out.isolability)
     say(fmt::format("can't be told apart well: {} and {} (cosine {:.2f}, confused {:.0f} % of the "
@@ -229,37 +281,102 @@ StudyDiagnosis diagnose_study(const Study &study, const std::vector<EffectDefini
   for (const auto &name : out.hidden) say("can't be seen by these tests at all: " + name);
   if (out.isolability.empty()) say("all effects that these tests see can be told apart");
 
-  std::vector<std::string> names;
-  for (const auto &p : study.parameters) names.push_back(p.name);
-  const Whitening whitening(evidence);
-  Refit base;
-  const Linearisation fitted = fit_base(*prober, whitening, out.catalogue, at, base);
-  const Omnibus omnibus(evidence, whitening, names, fitted.jacobian);
-  const NullTable null = make_null_table(omnibus, fitted, out.catalogue, evidence,
-                                         whitening.noise(), alarm_rate, null_draws, options.seed);
-  DiagnoseOptions how;
-  how.seed = options.seed;
-  how.confirmed = 3;
-  how.confirmed_pairs = 2;
-  out.diagnosis = diagnose(*prober, evidence, {out.catalogue, names, null}, at, how);
+  const auto names = model.parameter_names();
+  for (int round = 0;; ++round) {
+    out.catalogue = model.catalogue();
+    Whitening whitening(evidence);
+    Refit base;
+    const Linearisation fitted = fit_base(prober, evidence, out.catalogue, at, base, whitening);
+    const Omnibus omnibus(evidence, whitening, names, fitted.jacobian);
+    const NullTable null = make_null_table(
+        omnibus, fitted, out.catalogue,
+        study_null({study, parts.training, by_packing, evidence, prober.uncertainty(base.point),
+                    whitening.undo(fitted.jacobian), whitening.undo(fitted.traces)}),
+        alarm_rate, null_draws, options.seed);
+    DiagnoseOptions how;
+    how.seed = options.seed;
+    out.diagnosis = diagnose(prober, evidence, {out.catalogue, names, null}, at, how);
+    const auto further = beyond_what_was_run(model, out.diagnosis);
+    if (further.empty() || round == most_rounds) break;
+    for (const auto &[effect, size] : further)
+      say(fmt::format("{} is asked for at a size beyond those run: run at {}",
+                      out.catalogue[effect].name,
+                      format_quantity(size, out.catalogue[effect].unit, 3)));
+    model.rescale(further);
+  }
 
   const auto &d = out.diagnosis;
   const ParameterSpace space(study.parameters);
-  out.parameters_before = prober->physical(d.before.point);
-  out.parameters_after = prober->physical(d.after.point);
+  out.parameters_before = model.engine().physical(d.before.point);
+  out.parameters_after = model.engine().physical(d.after.point);
+  const auto plain = [](const Eigen::VectorXd &z) {
+    return std::vector<double>(z.data(), z.data() + z.size());
+  };
+  out.z_before = plain(d.before.point.z), out.z_after = plain(d.after.point.z);
   out.sd_before = physical_sd(space, d.before);
   out.sd_after = physical_sd(space, d.after);
   for (std::size_t k = 0; k < out.catalogue.size(); ++k)
     out.sizes.push_back(d.after.point.amplitude(static_cast<Eigen::Index>(k)) *
                         out.catalogue[k].switch_on);
-  measure_gaps(*full, evidence_of(study, parts.all, parts.scatter_all, packings.size()), out,
-               options.seed);
-  const auto before = full->curves(d.before.point, 0), after = full->curves(d.after.point, 0);
-  for (std::size_t i = 0; i < series.size(); ++i)
-    out.shown.push_back(
-        {series[i].probed.name, series[i].curves, before[i].curve, after[i].curve});
+  RowSelection whole(emulated, all_rows);
+  const std::vector<ModelPoint> fits = {d.before.point, d.after.point};
+  std::vector<Eigen::VectorXd> rows;
+  if (confirm)
+    for (const auto &row : emulated.confirm(fits)) rows.push_back(whole.of(row));
+  else
+    rows = whole.probe(fits);
+  for (std::size_t i = 0; i < 2; ++i)
+    if (!rows[i].allFinite()) {
+      out.advice.push_back("the engine's own runs at the fit lack figures: the emulator's stand");
+      rows[i] = whole.probe({fits[i]}).front();
+    }
+  measure_gaps(whole, evidence_of(study, series, columns_of(emulated.centre_rows(), all_rows)),
+               rows, out, options.seed);
+  if (!confirm) out.confirmed_gain = nan_value;
+  if (confirm) {
+    const auto before = model.engine().curves(d.before.point, 0),
+               after = model.engine().curves(d.after.point, 0);
+    const auto &probed = model.engine().series();
+    for (const auto &s : series)
+      for (std::size_t i = 0; i < probed.size(); ++i)
+        if (probed[i].name == s.probed.name)
+          out.shown.push_back({s.probed.name, s.curves, before[i].curve, after[i].curve});
+  }
   advise_on(out);
-  out.runs += prober->runs() + full->runs();
+  out.runs = model.runs() - runs_before;
+  return out;
+}
+
+StudyDiagnosis diagnose_study(const Study &study, const std::vector<EffectDefinition> &effects,
+                              const ModelFactory &factory, const StudyDiagnosisOptions &options,
+                              const StudySinks &sinks) {
+  const auto say = [&](const std::string &line) {
+    if (sinks.say) sinks.say(line);
+  };
+  const std::vector<MeasuredSeries> series = measured_series(study);
+  const std::string holdout = choose_holdout(series, options.holdout);
+  say(holdout.empty() ? "held out: nothing (too few tests, or as asked)"
+                      : "held out, not used until the end: " + holdout);
+  EmulatorPlan plan;
+  plan.differences = options.packings;
+  plan.centre = std::max(options.scatter, options.packings);
+  StudyModel model(study, effects, factory, plan, sinks.progress);
+  model.start(probed(series));
+  settle(model, series, holdout, say);
+  model.add_effects();
+  {
+    auto known = series;
+    const auto rows = keep_modelled(known, model.engine().series());
+    const Parts parts = split(known, rows, holdout);
+    RowSelection prober(model.emulated(), parts.training_rows);
+    scale_to_noise(model, prober,
+                   evidence_of(study, parts.training,
+                               columns_of(model.emulated().centre_rows(), parts.training_rows)),
+                   say);
+  }
+  const int made = model.runs();
+  StudyDiagnosis out = diagnose_measured(model, series, options, true, sinks);
+  out.runs += made;
   return out;
 }
 

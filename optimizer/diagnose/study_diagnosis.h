@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // Job: the diagnosis of a study from its data to the gap that the named effect closes.
-// Method: scatter over packings at the start -> fit -> scatter at the fitted point -> what the
-//   tests cannot tell apart (isolability, from the model and the plan, no residual used) -> null ->
-//   diagnose() on all series but the one held out -> the gap. The held-out series is fixed before
-//   anything runs: the one named, else the last of three or more, else none. The gap is the root
-//   mean square of the whitened rows, in noise units. The placebo has the trace of the first effect
+// Method: emulator of the parameters at the start -> fit, and the centre moved after it until the
+//   fit lies within the steps made -> every effect switched on there -> what the tests cannot tell
+//   apart (isolability, from the model and the plan, no residual used) -> null -> diagnose() on all
+//   series but the one held out -> the engine itself at the fits before and after -> the gap.
+//   The held-out series is fixed before anything runs: the one named, else the last of five or
+//   more, else none. The gap is the root mean square of the whitened rows, in noise units; the gain
+//   realised is that of the engine, the one predicted that of the score. The placebo has the trace of the first effect
 //   named with the signs of its rows drawn at random, so that it has the same freedom and size; the
 //   mean over 200 such draws stands.
 // Units: SI. Failure: UserError for names that aren't there; runs that fail are NaN rows.
@@ -19,12 +21,13 @@
 
 #include "diagnose/diagnose.h"
 #include "diagnose/study_evidence.h"
+#include "diagnose/study_model.h"
 
 namespace bondlab::diagnose {
 
 struct StudyDiagnosisOptions {
-  int packings = 3;  // the simulation's mean is over these
-  int scatter = 8;   // packings its scatter is measured over
+  int packings = 6;  // that differences are taken on
+  int scatter = 16;  // that the simulation's mean is over, and its scatter
   std::string holdout;
   std::uint64_t seed = 1;
 };
@@ -57,11 +60,14 @@ struct StudyDiagnosis {
   std::vector<EffectEntry> catalogue;
   std::string holdout;  // empty: none
   std::vector<Confusable> isolability;
+  std::vector<double> trace_noise;  // share of each effect's trace at switch-on that is noise
   std::vector<std::string> hidden;  // effects that these tests cannot show
   std::vector<double> parameters_before, parameters_after;
   std::vector<double> sd_before, sd_after;  // physical, linear
   std::vector<double> sizes;                // of all effects, after
   Gap gap;
+  double confirmed_gain = 0;   // in chi squared, of the engine's own rows; NaN: not run
+  std::vector<double> z_before, z_after;  // parameters, transformed
   std::vector<SeriesGap> by_series;
   std::vector<RowKey> rows;  // those diagnosed
   std::vector<ShownSeries> shown;
@@ -74,11 +80,14 @@ struct StudySinks {
   std::function<void(const std::string &)> say;  // a line for a person, as things are known
 };
 
-// Makes the model of the expanded study (with_word_tests).
-using ModelFactory = std::function<std::unique_ptr<ForwardModel>(const Study &)>;
-
 StudyDiagnosis diagnose_study(const Study &study, const std::vector<EffectDefinition> &effects,
                               const ModelFactory &model, const StudyDiagnosisOptions &options,
                               const StudySinks &sinks = {});
+
+// The same for data of a plan that `model` was made for, with its effects added. `confirm`: the
+// engine is run at the fits; else the emulator's word stands for it.
+StudyDiagnosis diagnose_measured(StudyModel &model, std::vector<MeasuredSeries> series,
+                                 const StudyDiagnosisOptions &options, bool confirm = true,
+                                 const StudySinks &sinks = {});
 
 }  // namespace bondlab::diagnose

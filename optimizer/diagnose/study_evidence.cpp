@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "forward/run_plan.h"
 
@@ -10,7 +11,7 @@ namespace bondlab::diagnose {
 
 namespace {
 
-MeasuredSeries from_curves(const Study &study, const Measurement &measurement) {
+MeasuredSeries from_curves(const Study &study, const Measurement &measurement, bool whole) {
   MeasuredSeries out;
   out.probed.name = measurement.name;
   out.probed.test = measurement.test.empty() ? measurement.name : measurement.test;
@@ -42,7 +43,7 @@ MeasuredSeries from_curves(const Study &study, const Measurement &measurement) {
   }
   std::vector<Eigen::Index> kept;
   for (Eigen::Index j = 0; j < rows.cols(); ++j)
-    if (rows.col(j).allFinite()) {
+    if (whole || rows.col(j).allFinite()) {
       kept.push_back(j);
       out.probed.quantities.push_back(all[static_cast<std::size_t>(j)]);
     }
@@ -82,17 +83,6 @@ std::vector<MeasuredSeries> from_targets(const Study &study) {
   return out;
 }
 
-// Off-diagonal entries by n / (n + rows): few packings say little of them.
-Eigen::MatrixXd shrunk_covariance(const Eigen::MatrixXd &sample) {
-  const Eigen::MatrixXd centred = sample.rowwise() - sample.colwise().mean();
-  const double dof = std::max(1.0, static_cast<double>(sample.rows()) - 1);
-  Eigen::MatrixXd covariance = centred.transpose() * centred / dof;
-  const Eigen::VectorXd diagonal = covariance.diagonal();
-  covariance *= dof / (dof + static_cast<double>(sample.cols()));
-  covariance.diagonal() = diagonal;
-  return covariance;
-}
-
 // Of packings and specimens together, each about its own mean: sensors and an effect that scatters
 // are in the specimens only, and few of either make a covariance.
 Eigen::MatrixXd pooled(const Eigen::MatrixXd &packings, const Eigen::MatrixXd &replicates) {
@@ -113,11 +103,21 @@ Eigen::MatrixXd pooled(const Eigen::MatrixXd &packings, const Eigen::MatrixXd &r
 
 }  // namespace
 
-std::vector<MeasuredSeries> measured_series(const Study &study) {
+Eigen::MatrixXd shrunk_covariance(const Eigen::MatrixXd &sample) {
+  const Eigen::MatrixXd centred = sample.rowwise() - sample.colwise().mean();
+  const double dof = std::max(1.0, static_cast<double>(sample.rows()) - 1);
+  Eigen::MatrixXd covariance = centred.transpose() * centred / dof;
+  const Eigen::VectorXd diagonal = covariance.diagonal();
+  covariance *= dof / (dof + static_cast<double>(sample.cols()));
+  covariance.diagonal() = diagonal;
+  return covariance;
+}
+
+std::vector<MeasuredSeries> measured_series(const Study &study, bool whole) {
   std::vector<MeasuredSeries> out;
   if (study.data)
     for (const auto &measurement : study.data->measurements)
-      out.push_back(from_curves(study, measurement));
+      out.push_back(from_curves(study, measurement, whole));
   else
     out = from_targets(study);
   out.erase(std::remove_if(out.begin(), out.end(),
@@ -130,21 +130,22 @@ std::vector<MeasuredSeries> measured_series(const Study &study) {
   return out;
 }
 
-void keep_simulated(std::vector<MeasuredSeries> &series, Eigen::MatrixXd &by_packing) {
-  std::vector<Eigen::Index> all_kept;
-  Eigen::Index first = 0;
+std::vector<Eigen::Index> keep_modelled(std::vector<MeasuredSeries> &series,
+                                        const std::vector<ProbedSeries> &model) {
+  std::map<std::pair<std::string, std::string>, Eigen::Index> rows;
+  Eigen::Index next = 0;
+  for (const auto &s : model)
+    for (const auto &q : s.quantities) rows[{s.name, q.name}] = next++;
+  std::vector<Eigen::Index> used;
   for (auto &s : series) {
-    const auto count = static_cast<Eigen::Index>(s.probed.quantities.size());
     std::vector<Eigen::Index> kept;
     std::vector<CurveQuantity> quantities;
-    for (Eigen::Index j = 0; j < count; ++j) {
-      const Eigen::VectorXd column = by_packing.col(first + j);
-      const bool good = column.allFinite() &&
-                        (column.array() - column.mean()).matrix().norm() > 1e-12;
-      if (!good) continue;
-      kept.push_back(j);
-      all_kept.push_back(first + j);
-      quantities.push_back(s.probed.quantities[static_cast<std::size_t>(j)]);
+    for (std::size_t j = 0; j < s.probed.quantities.size(); ++j) {
+      const auto found = rows.find({s.probed.name, s.probed.quantities[j].name});
+      if (found == rows.end()) continue;
+      kept.push_back(static_cast<Eigen::Index>(j));
+      used.push_back(found->second);
+      quantities.push_back(s.probed.quantities[j]);
     }
     const Eigen::MatrixXd replicates = s.replicates, stated = s.stated;
     const auto left = static_cast<Eigen::Index>(kept.size());
@@ -157,17 +158,31 @@ void keep_simulated(std::vector<MeasuredSeries> &series, Eigen::MatrixXd &by_pac
             stated(kept[static_cast<std::size_t>(i)], kept[static_cast<std::size_t>(j)]);
     }
     s.probed.quantities = quantities;
-    first += count;
   }
-  const Eigen::MatrixXd whole = by_packing;
-  by_packing.resize(whole.rows(), static_cast<Eigen::Index>(all_kept.size()));
-  for (std::size_t j = 0; j < all_kept.size(); ++j)
-    by_packing.col(static_cast<Eigen::Index>(j)) = whole.col(all_kept[j]);
   series.erase(std::remove_if(series.begin(), series.end(),
                               [](const MeasuredSeries &s) { return s.probed.quantities.empty(); }),
                series.end());
   if (series.empty())
     throw UserError("no run of the study gave a figure that can be compared with what was measured");
+  return used;
+}
+
+std::vector<ProbedSeries> that_scatter(std::vector<ProbedSeries> series,
+                                       const Eigen::MatrixXd &by_packing) {
+  Eigen::Index row = 0;
+  for (auto &s : series) {
+    std::vector<CurveQuantity> kept;
+    for (const auto &quantity : s.quantities) {
+      const Eigen::VectorXd column = by_packing.col(row++);
+      if (column.allFinite() && (column.array() - column.mean()).matrix().norm() > 1e-12)
+        kept.push_back(quantity);
+    }
+    s.quantities = kept;
+  }
+  series.erase(std::remove_if(series.begin(), series.end(),
+                              [](const ProbedSeries &s) { return s.quantities.empty(); }),
+               series.end());
+  return series;
 }
 
 std::vector<ProbedSeries> probed(const std::vector<MeasuredSeries> &series) {
@@ -177,7 +192,7 @@ std::vector<ProbedSeries> probed(const std::vector<MeasuredSeries> &series) {
 }
 
 Evidence evidence_of(const Study &study, const std::vector<MeasuredSeries> &series,
-                     const Eigen::MatrixXd &by_packing, std::size_t packings) {
+                     const Eigen::MatrixXd &by_packing) {
   Evidence out;
   for (const auto &s : series) {
     SeriesEvidence evidence;
@@ -194,7 +209,7 @@ Evidence evidence_of(const Study &study, const std::vector<MeasuredSeries> &seri
         s.stated.size() > 0
             ? s.stated
             : pooled(by_packing.middleCols(evidence.first, evidence.count), s.replicates);
-    evidence.simulated = covariance / static_cast<double>(packings);
+    evidence.simulated = covariance / static_cast<double>(by_packing.rows());
     for (const auto &q : s.probed.quantities)
       out.rows.push_back({evidence.test, evidence.name, q.part, q.name});
     out.series.push_back(std::move(evidence));

@@ -29,17 +29,28 @@ struct MeasuredSeries {
   std::vector<Curve> curves;   // for the page; empty for targets
 };
 
-std::vector<MeasuredSeries> measured_series(const Study &study);
+// Rows that some replicate lacks are left out; `whole`: kept, as NaN, so that a model can be made
+// for many data sets of one plan.
+std::vector<MeasuredSeries> measured_series(const Study &study, bool whole = false);
 
-// Leaves out quantities whose simulated rows (packings x rows, all series side by side) are not
-// finite or do not scatter at all.
-void keep_simulated(std::vector<MeasuredSeries> &series, Eigen::MatrixXd &by_packing);
+// Leaves in only what `model` (the series of a prober) has as well; which of the prober's rows they
+// are, in order.
+std::vector<Eigen::Index> keep_modelled(std::vector<MeasuredSeries> &series,
+                                        const std::vector<ProbedSeries> &model);
+
+// Leaves out quantities whose simulated rows (packings x rows) are not finite or do not scatter.
+std::vector<ProbedSeries> that_scatter(std::vector<ProbedSeries> series,
+                                       const Eigen::MatrixXd &by_packing);
+
+// Covariance of samples x rows; off the diagonal drawn towards zero by n / (n + rows), because few
+// samples say little of it.
+Eigen::MatrixXd shrunk_covariance(const Eigen::MatrixXd &sample);
 
 std::vector<ProbedSeries> probed(const std::vector<MeasuredSeries> &series);
 
-// `packings`: over how many the simulation's mean is taken.
+// `by_packing` (packings x rows of all series) is what the simulation's mean is over.
 Evidence evidence_of(const Study &study, const std::vector<MeasuredSeries> &series,
-                     const Eigen::MatrixXd &by_packing, std::size_t packings);
+                     const Eigen::MatrixXd &by_packing);
 
 // The same before any data: nothing but the plan.
 Evidence without_data(Evidence evidence);

@@ -12,11 +12,12 @@ namespace {
 
 constexpr double weight_of_all = 60;  // degrees of freedom that the common scale counts for
 
-Eigen::MatrixXd inverse_root(const Eigen::MatrixXd &covariance) {
+Eigen::MatrixXd inverse_root(const Eigen::MatrixXd &covariance, double &log_determinant) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
   const Eigen::VectorXd &values = solver.eigenvalues();
   const double floor = 1e-9 * values.maxCoeff();
   const Eigen::VectorXd inverse = values.cwiseMax(floor).cwiseSqrt().cwiseInverse();
+  log_determinant += values.cwiseMax(floor).array().log().sum();
   return solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose();
 }
 
@@ -27,7 +28,7 @@ struct Tally {
 
 }  // namespace
 
-Whitening::Whitening(const Evidence &evidence) {
+Whitening::Whitening(const Evidence &evidence, const Eigen::MatrixXd &model) {
   measured_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(evidence.rows.size()));
   Tally all;
   std::map<std::string, Tally> tests;
@@ -66,9 +67,10 @@ Whitening::Whitening(const Evidence &evidence) {
         series.replicates.rows() > 0 ? series.replicates.rows() : series.planned);
     if (series.shift.size() > 0 && series.replicates.rows() > 0)
       measured_.segment(series.first, series.count) -= scale * scale * series.shift;
-    const Eigen::MatrixXd covariance =
-        series.stated * (scale * scale / replicates) + series.simulated;
-    blocks_.push_back({series.first, series.count, inverse_root(covariance)});
+    Eigen::MatrixXd covariance = series.stated * (scale * scale / replicates) + series.simulated;
+    if (model.size() > 0)
+      covariance += model.block(series.first, series.first, series.count, series.count);
+    blocks_.push_back({series.first, series.count, inverse_root(covariance, log_determinant_)});
   }
   for (const auto &scatter : evidence.scatter) {
     const double stated = noise_.scale * noise_.scale * scatter.stated;
@@ -84,6 +86,14 @@ Eigen::VectorXd Whitening::apply(const Eigen::VectorXd &rows) const {
   for (const auto &block : blocks_)
     out.segment(block.first, block.count).noalias() =
         block.root * rows.segment(block.first, block.count);
+  return out;
+}
+
+Eigen::MatrixXd Whitening::undo(const Eigen::MatrixXd &whitened) const {
+  Eigen::MatrixXd out(whitened.rows(), whitened.cols());
+  for (const auto &block : blocks_)
+    out.middleRows(block.first, block.count) =
+        block.root.ldlt().solve(whitened.middleRows(block.first, block.count));
   return out;
 }
 

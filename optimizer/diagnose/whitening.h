@@ -65,12 +65,19 @@ struct NoiseEstimate {
 
 class Whitening {
  public:
-  explicit Whitening(const Evidence &evidence);
+  // `model`: what the model does not know of its rows (Prober::uncertainty()), added within each
+  // series; empty: nothing.
+  explicit Whitening(const Evidence &evidence, const Eigen::MatrixXd &model = Eigen::MatrixXd());
 
   const NoiseEstimate &noise() const { return noise_; }
   const Eigen::VectorXd &measured() const { return measured_; }  // means, not whitened
+  // Of the covariance: two explanations that know their rows differently well are compared by
+  // chi squared plus this.
+  double log_determinant() const { return log_determinant_; }
   int rows() const { return static_cast<int>(measured_.size()); }
   Eigen::VectorXd apply(const Eigen::VectorXd &rows) const;
+  // What apply() made of rows, undone.
+  Eigen::MatrixXd undo(const Eigen::MatrixXd &whitened) const;
   // W (measured - simulated)
   Eigen::VectorXd residual(const Eigen::VectorXd &simulated) const;
 
@@ -82,6 +89,7 @@ class Whitening {
   NoiseEstimate noise_;
   Eigen::VectorXd measured_;
   std::vector<Block> blocks_;
+  double log_determinant_ = 0;
 };
 
 }  // namespace bondlab::diagnose

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "diagnose/emulated_prober.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "diagnose/study_evidence.h"
+
+namespace bondlab::diagnose {
+
+namespace {
+
+constexpr double bend_needed = 2.5;  // standard errors
+constexpr int least_packings = 3;    // that a row's change is known from
+constexpr double unknown_variance = 9;
+
+std::vector<int> first(int count) {
+  std::vector<int> out(static_cast<std::size_t>(count));
+  std::iota(out.begin(), out.end(), 0);
+  return out;
+}
+
+double variance_of(const Eigen::VectorXd &values) {
+  return (values.array() - values.mean()).square().sum() /
+         std::max<double>(1, static_cast<double>(values.size()) - 1);
+}
+
+}  // namespace
+
+Eigen::MatrixXd EmulatedProber::Way::at(double x) const {
+  const double inside = std::clamp(x, low, high), beyond = x - inside;
+  return linear * x + squared * (inside * inside + 2 * inside * beyond);
+}
+
+EmulatedProber::Way EmulatedProber::way(const std::vector<double> &knots,
+                                        const std::vector<Eigen::MatrixXd> &changes) const {
+  Way out;
+  out.low = std::min(0.0, *std::min_element(knots.begin(), knots.end()));
+  out.high = std::max(0.0, *std::max_element(knots.begin(), knots.end()));
+  const Eigen::Index packings = changes.front().rows(), rows = changes.front().cols();
+  out.linear = out.squared = Eigen::MatrixXd::Zero(packings, rows);
+  out.unknown = Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(rows, false);
+  const auto count = static_cast<Eigen::Index>(knots.size());
+  Eigen::MatrixXd bent(count, 2);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double x = knots[static_cast<std::size_t>(k)];
+    bent.row(k) << x, x * x;
+  }
+  const Eigen::VectorXd straight = bent.col(0);
+  const Eigen::MatrixXd solve_bent =
+      count > 1 ? Eigen::MatrixXd(bent.completeOrthogonalDecomposition().pseudoInverse())
+                : Eigen::MatrixXd();
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    std::vector<Eigen::Index> known;
+    Eigen::MatrixXd values(count, packings);
+    for (Eigen::Index p = 0; p < packings; ++p) {
+      for (Eigen::Index k = 0; k < count; ++k)
+        values(k, p) = changes[static_cast<std::size_t>(k)](p, row);
+      if (values.col(p).allFinite()) known.push_back(p);
+    }
+    if (static_cast<int>(known.size()) < least_packings) {
+      out.unknown(row) = true;
+      continue;
+    }
+    Eigen::VectorXd linear = Eigen::VectorXd::Zero(packings), squared = linear;
+    const auto of_known = [&](const Eigen::VectorXd &all) {
+      Eigen::VectorXd some(static_cast<Eigen::Index>(known.size()));
+      for (std::size_t i = 0; i < known.size(); ++i)
+        some(static_cast<Eigen::Index>(i)) = all(known[i]);
+      return some;
+    };
+    bool bends = false;
+    if (count > 1) {
+      for (const auto p : known) {
+        const Eigen::Vector2d both = solve_bent * values.col(p);
+        linear(p) = both(0), squared(p) = both(1);
+      }
+      const Eigen::VectorXd some = of_known(squared);
+      const double error = std::sqrt(variance_of(some) / static_cast<double>(some.size()));
+      bends = std::abs(some.mean()) > bend_needed * error;
+    }
+    if (!bends) {
+      squared.setZero();
+      for (const auto p : known) linear(p) = straight.dot(values.col(p)) / straight.squaredNorm();
+    }
+    // Packings that lack the row stand at the mean, which leaves mean and scatter as they are.
+    const double linear_mean = of_known(linear).mean(), squared_mean = of_known(squared).mean();
+    for (Eigen::Index p = 0; p < packings; ++p)
+      if (!values.col(p).allFinite()) linear(p) = linear_mean, squared(p) = squared_mean;
+    out.linear.col(row) = linear;
+    out.squared.col(row) = squared;
+  }
+  out.dead = out.unknown.all();
+  return out;
+}
+
+std::vector<double> EmulatedProber::knots_of(const EffectEntry &entry) const {
+  const double largest = entry.largest / entry.switch_on, lowest = entry.lowest / entry.switch_on;
+  std::vector<double> knots;
+  if (lowest <= -1) knots.push_back(-1);
+  knots.push_back(std::min(1.0, largest));
+  if (largest >= 1.5) knots.push_back(std::min(2.0, largest));
+  return knots;
+}
+
+EmulatedProber::EmulatedProber(ForwardProber &engine, const std::vector<EffectEntry> &catalogue,
+                               const ModelPoint &centre, const EmulatorPlan &plan,
+                               bool with_effects)
+    : engine_(engine), centre_(centre), packings_(first(std::min(plan.differences, plan.centre))) {
+  std::vector<ModelPoint> points;
+  const auto add = [&](Eigen::Index parameter, Eigen::Index effect, double x) {
+    points.push_back(centre);
+    if (parameter >= 0) points.back().z(parameter) += x;
+    if (effect >= 0) points.back().amplitude(effect) = x;
+  };
+  for (std::size_t i = 0; i < engine.parameters(); ++i) {
+    steps_.push_back(std::max(plan.least_step, engine.parameter_step(i)));
+    for (const double sign : {-1.0, 1.0}) add(static_cast<Eigen::Index>(i), -1, sign * steps_[i]);
+  }
+  if (with_effects)
+    for (std::size_t k = 0; k < engine.effects(); ++k)
+      for (const double knot : knots_of(catalogue[k])) add(-1, static_cast<Eigen::Index>(k), knot);
+  // The centre first: what all the rest is compared with.
+  rows_ = engine.by_packing(centre, first(plan.centre));
+  mean_ = rows_.colwise().mean();
+  scatter_.resize(rows_.cols());
+  for (Eigen::Index row = 0; row < rows_.cols(); ++row) scatter_(row) = variance_of(rows_.col(row));
+  engine.prepare(points, packings_);
+  const Eigen::MatrixXd own = rows_.topRows(static_cast<Eigen::Index>(packings_.size()));
+  std::size_t at = 0;
+  const auto changes = [&](std::size_t count) {
+    std::vector<Eigen::MatrixXd> out;
+    for (std::size_t i = 0; i < count; ++i)
+      out.push_back(engine.by_packing(points[at++], packings_) - own);
+    return out;
+  };
+  for (std::size_t i = 0; i < engine.parameters(); ++i)
+    parameters_.push_back(way({-steps_[i], steps_[i]}, changes(2)));
+  for (std::size_t k = 0; k < engine.effects() && with_effects; ++k) {
+    const auto knots = knots_of(catalogue[k]);
+    effects_.push_back(way(knots, changes(knots.size())));
+  }
+}
+
+double EmulatedProber::parameter_step(std::size_t parameter) const { return steps_[parameter]; }
+
+Eigen::MatrixXd EmulatedProber::change(const ModelPoint &point) const {
+  Eigen::MatrixXd out =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(packings_.size()), rows_.cols());
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const double x = point.z(k) - centre_.z(k);
+    if (x != 0) out += parameters_[i].at(x);
+  }
+  for (Eigen::Index k = 0; k < point.amplitude.size(); ++k) {
+    const double x = point.amplitude(k);
+    if (x == 0) continue;
+    const auto i = static_cast<std::size_t>(k);
+    if (i >= effects_.size() || effects_[i].dead)
+      out.setConstant(std::numeric_limits<double>::quiet_NaN());
+    else
+      out += effects_[i].at(x);
+  }
+  return out;
+}
+
+std::vector<Eigen::VectorXd> EmulatedProber::probe(const std::vector<ModelPoint> &batch) {
+  std::vector<Eigen::VectorXd> out;
+  for (const auto &point : batch)
+    out.push_back(mean_ + Eigen::VectorXd(change(point).colwise().mean().transpose()));
+  return out;
+}
+
+Eigen::MatrixXd EmulatedProber::uncertainty(const ModelPoint &point) {
+  const Eigen::MatrixXd changes = change(point);
+  const auto packings = static_cast<double>(packings_.size());
+  const double widened = (packings - 1) / std::max(1.0, packings - 3) / packings;
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(rows_.cols(), rows_.cols());
+  Eigen::Index first_row = 0;
+  for (const auto &series : engine_.series()) {
+    const auto count = static_cast<Eigen::Index>(series.quantities.size());
+    out.block(first_row, first_row, count, count) =
+        widened * shrunk_covariance(changes.middleCols(first_row, count));
+    first_row += count;
+  }
+  const auto doubt = [&](const Way &way) {
+    for (Eigen::Index row = 0; row < rows_.cols(); ++row)
+      if (way.unknown(row)) out(row, row) += unknown_variance * scatter_(row);
+  };
+  for (std::size_t i = 0; i < parameters_.size(); ++i)
+    if (point.z(static_cast<Eigen::Index>(i)) != centre_.z(static_cast<Eigen::Index>(i)))
+      doubt(parameters_[i]);
+  for (std::size_t k = 0; k < effects_.size(); ++k)
+    if (point.amplitude(static_cast<Eigen::Index>(k)) != 0) doubt(effects_[k]);
+  return out;
+}
+
+bool EmulatedProber::covers(const ModelPoint &point) const {
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    if (std::abs(point.z(k) - centre_.z(k)) > 1.5 * steps_[i]) return false;
+  }
+  return true;
+}
+
+void EmulatedProber::renew(std::size_t effect, const EffectEntry &entry) {
+  const auto knots = knots_of(entry);
+  std::vector<ModelPoint> points(knots.size(), centre_);
+  for (std::size_t i = 0; i < knots.size(); ++i)
+    points[i].amplitude(static_cast<Eigen::Index>(effect)) = knots[i];
+  engine_.prepare(points, packings_);
+  const Eigen::MatrixXd own = rows_.topRows(static_cast<Eigen::Index>(packings_.size()));
+  std::vector<Eigen::MatrixXd> changes;
+  for (const auto &point : points) changes.push_back(engine_.by_packing(point, packings_) - own);
+  effects_[effect] = way(knots, changes);
+}
+
+bool EmulatedProber::covers(std::size_t effect, double amplitude) const {
+  const Way &way = effects_[effect];
+  const double spare = 0.1 * (way.high - way.low);
+  return amplitude <= way.high + spare && amplitude >= way.low - spare;
+}
+
+std::vector<Eigen::VectorXd> EmulatedProber::confirm(const std::vector<ModelPoint> &points) {
+  engine_.prepare(points, packings_);
+  const Eigen::MatrixXd own = rows_.topRows(static_cast<Eigen::Index>(packings_.size()));
+  std::vector<Eigen::VectorXd> out;
+  for (const auto &point : points) {
+    const Eigen::MatrixXd there = engine_.by_packing(point, packings_);
+    out.push_back(mean_ + Eigen::VectorXd((there - own).colwise().mean().transpose()));
+  }
+  return out;
+}
+
+double EmulatedProber::trace_noise(std::size_t effect) const {
+  const Way &way = effects_[effect];
+  if (way.dead) return std::numeric_limits<double>::infinity();
+  const Eigen::MatrixXd changes = way.at(1);
+  double noise = 0, signal = 0;
+  for (Eigen::Index row = 0; row < changes.cols(); ++row) {
+    if (way.unknown(row) || !(scatter_(row) > 0)) continue;
+    noise += variance_of(changes.col(row)) / static_cast<double>(changes.rows()) / scatter_(row);
+    signal += changes.col(row).mean() * changes.col(row).mean() / scatter_(row);
+  }
+  return signal > 0 ? std::sqrt(noise / signal) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace bondlab::diagnose

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Job: a Prober that knows how well it knows: polynomials over forward runs about one point.
+// Method: at the centre the rows are the mean over many packings. About it every fitted parameter
+//   is stepped up and down and every effect switched on at two sizes, on some of these packings
+//   (common random numbers: a packing is compared with itself). The change along one coordinate is
+//   x L + x^2 Q a row and packing, Q only where its mean over the packings is beyond 2.5 of its
+//   standard errors; changes along different coordinates add, which rows that are logarithms and
+//   shares nearly do. uncertainty() is the covariance of the whole change over the packings, over
+//   their number: it is zero at the centre and grows with what is asked.
+// Why: a brittle specimen breaks along another path after any change, so that one run's difference
+//   is noise; here noise is averaged, and what is left of it is known to the scores. A probe costs
+//   no run, so that one design serves many data sets and thousands of resamples.
+// Source: response surfaces with common random numbers, Kleijnen, Design and Analysis of Simulation
+//   Experiments (2015), ch. 2; the variance of few packings is widened by (P-1)/(P-3) as Student's.
+// Units: as ForwardProber. Failure: a row that fewer than three packings have at a knot is not
+//   changed by that coordinate and is given three times the packings' own scatter; an effect with
+//   no row left is dead (NaN rows).
+// Limits: beyond its knots a coordinate goes on straight. Effects and parameters do not interact.
+#pragma once
+
+#include <vector>
+
+#include "diagnose/forward_prober.h"
+
+namespace bondlab::diagnose {
+
+struct EmulatorPlan {
+  int centre = 16;          // packings of the centre's mean
+  int differences = 6;      // of them, those that the differences are taken on; at least 4
+  double least_step = 0.5;  // of parameters, in z
+};
+
+class EmulatedProber : public Prober {
+ public:
+  // Makes all its runs, as one batch. `engine` must outlive the prober.
+  EmulatedProber(ForwardProber &engine, const std::vector<EffectEntry> &catalogue,
+                 const ModelPoint &centre, const EmulatorPlan &plan, bool with_effects = true);
+
+  std::size_t parameters() const override { return engine_.parameters(); }
+  std::size_t effects() const override { return engine_.effects(); }
+  double parameter_step(std::size_t parameter) const override;
+  std::vector<Eigen::VectorXd> probe(const std::vector<ModelPoint> &batch) override;
+  Eigen::MatrixXd uncertainty(const ModelPoint &point) override;
+
+  const ModelPoint &centre() const { return centre_; }
+  const Eigen::MatrixXd &centre_rows() const { return rows_; }  // packings x rows
+  // Whether a fitted point lies within the steps that were made.
+  bool covers(const ModelPoint &point) const;
+  // The engine itself at these points: the centre's mean and the change on the same packings.
+  std::vector<Eigen::VectorXd> confirm(const std::vector<ModelPoint> &points);
+  // Makes an effect's runs anew, at the sizes that engine and entry now have.
+  void renew(std::size_t effect, const EffectEntry &entry);
+  // Whether an amplitude lies within the sizes that were run.
+  bool covers(std::size_t effect, double amplitude) const;
+  // Standard deviation over the mean change at switch-on, root mean square over the rows that
+  // scatter least: how much of an effect's trace is noise.
+  double trace_noise(std::size_t effect) const;
+
+ private:
+  struct Way {                        // one coordinate
+    double low = 0, high = 0;         // outermost knots
+    Eigen::MatrixXd linear, squared;  // packings x rows
+    Eigen::Array<bool, Eigen::Dynamic, 1> unknown;
+    bool dead = false;
+    Eigen::MatrixXd at(double x) const;
+  };
+  Way way(const std::vector<double> &knots, const std::vector<Eigen::MatrixXd> &changes) const;
+  Eigen::MatrixXd change(const ModelPoint &point) const;  // packings x rows
+  std::vector<double> knots_of(const EffectEntry &entry) const;
+
+  ForwardProber &engine_;
+  ModelPoint centre_;
+  std::vector<int> packings_;  // of the differences
+  std::vector<double> steps_;
+  Eigen::MatrixXd rows_;
+  Eigen::VectorXd mean_, scatter_;  // of the centre: mean, variance over packings
+  std::vector<Way> parameters_, effects_;
+};
+
+}  // namespace bondlab::diagnose

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "diagnose/study_model.h"
+
+#include <numeric>
+
+#include "diagnose/study_evidence.h"
+
+namespace bondlab::diagnose {
+
+StudyModel::StudyModel(const Study &study, const std::vector<EffectDefinition> &all,
+                       const ModelFactory &factory, EmulatorPlan plan,
+                       std::function<void(const BatchProgress &)> progress)
+    : study_(study),
+      effects_(effects_of_study(study, all)),
+      catalogue_(catalogue_of(study, effects_)),
+      expanded_(with_word_tests(study, effects_)),
+      plan_(plan),
+      progress_(std::move(progress)) {
+  if (study.parameters.empty())
+    throw UserError(Place{study.file.string(), 0, 0}, "a diagnosis needs [[parameters]] to fit");
+  forward_ = factory(expanded_);
+}
+
+void StudyModel::start(const std::vector<ProbedSeries> &series) {
+  std::vector<int> packings(static_cast<std::size_t>(plan_.centre));
+  std::iota(packings.begin(), packings.end(), 0);
+  const auto prober_of = [&](const std::vector<ProbedSeries> &list) {
+    if (engine_) earlier_runs_ += engine_->runs();
+    engine_ = std::make_unique<ForwardProber>(expanded_, effects_, *forward_, list, packings);
+    engine_->set_progress(progress_);
+  };
+  prober_of(series);
+  const auto kept = that_scatter(series, engine_->by_packing(engine_->start(), packings));
+  prober_of(kept);
+  move_to(engine_->start());
+}
+
+void StudyModel::move_to(const ModelPoint &centre) {
+  emulated_ = std::make_unique<EmulatedProber>(*engine_, catalogue_, centre, plan_, false);
+}
+
+void StudyModel::add_effects() {
+  const ModelPoint centre = emulated_->centre();
+  emulated_ = std::make_unique<EmulatedProber>(*engine_, catalogue_, centre, plan_, true);
+}
+
+void StudyModel::rescale(const std::map<std::size_t, double> &switch_on) {
+  for (const auto &[effect, size] : switch_on) {
+    catalogue_[effect].switch_on = size;
+    engine_->rescale(effect, size);
+    emulated_->renew(effect, catalogue_[effect]);
+  }
+}
+
+std::vector<std::string> StudyModel::parameter_names() const {
+  std::vector<std::string> names;
+  for (const auto &p : study_.parameters) names.push_back(p.name);
+  return names;
+}
+
+}  // namespace bondlab::diagnose
