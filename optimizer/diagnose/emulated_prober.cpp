@@ -15,6 +15,8 @@ namespace {
 constexpr double bend_needed = 2.5;  // standard errors
 constexpr int least_packings = 3;    // that a row's change is known from
 constexpr double unknown_variance = 9;
+constexpr double least_share = 0.2;              // of a step that a bound leaves
+constexpr double covered = 2, longest_move = 4;  // in steps
 
 std::vector<int> first(int count) {
   std::vector<int> out(static_cast<std::size_t>(count));
@@ -108,20 +110,27 @@ std::vector<double> EmulatedProber::knots_of(const EffectEntry &entry) const {
 EmulatedProber::EmulatedProber(ForwardProber &engine, const std::vector<EffectEntry> &catalogue,
                                const ModelPoint &centre, const EmulatorPlan &plan,
                                bool with_effects)
-    : engine_(engine), centre_(centre), packings_(first(std::min(plan.differences, plan.centre))) {
+    : engine_(engine),
+      centre_(centre),
+      packings_(first(std::min(plan.differences, plan.centre))),
+      step_(plan.step) {
   std::vector<ModelPoint> points;
-  const auto add = [&](Eigen::Index parameter, Eigen::Index effect, double x) {
-    points.push_back(centre);
-    if (parameter >= 0) points.back().z(parameter) += x;
-    if (effect >= 0) points.back().amplitude(effect) = x;
-  };
   for (std::size_t i = 0; i < engine.parameters(); ++i) {
-    steps_.push_back(std::max(plan.least_step, engine.parameter_step(i)));
-    for (const double sign : {-1.0, 1.0}) add(static_cast<Eigen::Index>(i), -1, sign * steps_[i]);
+    parameter_knots_.emplace_back();
+    for (const double sign : {-1.0, 1.0}) {
+      const ModelPoint there = moved(i, sign * plan.step);
+      const double x = coordinate(i, there);  // less than the step at a bound
+      if (std::abs(x) < least_share * plan.step) continue;
+      parameter_knots_.back().push_back(x);
+      points.push_back(there);
+    }
   }
   if (with_effects)
     for (std::size_t k = 0; k < engine.effects(); ++k)
-      for (const double knot : knots_of(catalogue[k])) add(-1, static_cast<Eigen::Index>(k), knot);
+      for (const double knot : knots_of(catalogue[k])) {
+        points.push_back(centre);
+        points.back().amplitude(static_cast<Eigen::Index>(k)) = knot;
+      }
   // The centre first: what all the rest is compared with.
   rows_ = engine.by_packing(centre, first(plan.centre));
   mean_ = rows_.colwise().mean();
@@ -137,21 +146,43 @@ EmulatedProber::EmulatedProber(ForwardProber &engine, const std::vector<EffectEn
     return out;
   };
   for (std::size_t i = 0; i < engine.parameters(); ++i)
-    parameters_.push_back(way({-steps_[i], steps_[i]}, changes(2)));
+    parameters_.push_back(way(parameter_knots_[i], changes(parameter_knots_[i].size())));
   for (std::size_t k = 0; k < engine.effects() && with_effects; ++k) {
     const auto knots = knots_of(catalogue[k]);
     effects_.push_back(way(knots, changes(knots.size())));
   }
 }
 
-double EmulatedProber::parameter_step(std::size_t parameter) const { return steps_[parameter]; }
+double EmulatedProber::coordinate(std::size_t parameter, const ModelPoint &point) const {
+  const auto k = static_cast<Eigen::Index>(parameter);
+  if (point.z(k) == centre_.z(k)) return 0;
+  const double x = engine_.physical(point)[parameter], x0 = engine_.physical(centre_)[parameter];
+  const auto &p = engine_.space().parameter(parameter);
+  return p.lower > 0 ? std::log(x / x0) : (x - x0) / (p.upper - p.lower);
+}
+
+ModelPoint EmulatedProber::moved(std::size_t parameter, double x) const {
+  const auto k = static_cast<Eigen::Index>(parameter);
+  const auto &p = engine_.space().parameter(parameter);
+  auto values = engine_.physical(centre_);
+  const double wanted = p.lower > 0 ? values[parameter] * std::exp(x)
+                                    : values[parameter] + x * (p.upper - p.lower);
+  values[parameter] = std::clamp(wanted, p.lower, p.upper);
+  ModelPoint out = centre_;
+  out.z(k) = engine_.space().to_transformed({values}).z[parameter];
+  return out;
+}
+
+double EmulatedProber::parameter_step(std::size_t parameter) const {
+  const auto k = static_cast<Eigen::Index>(parameter);
+  return std::clamp(std::abs(moved(parameter, 0.5 * step_).z(k) - centre_.z(k)), 0.01, 1.0);
+}
 
 Eigen::MatrixXd EmulatedProber::change(const ModelPoint &point) const {
   Eigen::MatrixXd out =
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(packings_.size()), rows_.cols());
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    const double x = point.z(k) - centre_.z(k);
+    const double x = coordinate(i, point);
     if (x != 0) out += parameters_[i].at(x);
   }
   for (Eigen::Index k = 0; k < point.amplitude.size(); ++k) {
@@ -198,11 +229,19 @@ Eigen::MatrixXd EmulatedProber::uncertainty(const ModelPoint &point) {
 }
 
 bool EmulatedProber::covers(const ModelPoint &point) const {
-  for (std::size_t i = 0; i < steps_.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    if (std::abs(point.z(k) - centre_.z(k)) > 1.5 * steps_[i]) return false;
-  }
+  for (std::size_t i = 0; i < parameters_.size(); ++i)
+    if (std::abs(coordinate(i, point)) > covered * step_) return false;
   return true;
+}
+
+ModelPoint EmulatedProber::towards(const ModelPoint &point) const {
+  ModelPoint out = centre_;
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const double x = std::clamp(coordinate(i, point), -longest_move * step_, longest_move * step_);
+    const auto k = static_cast<Eigen::Index>(i);
+    out.z(k) = moved(i, x).z(k);
+  }
+  return out;
 }
 
 void EmulatedProber::renew(std::size_t effect, const EffectEntry &entry) {

@@ -8,6 +8,9 @@
 //   standard errors; changes along different coordinates add, which rows that are logarithms and
 //   shares nearly do. uncertainty() is the covariance of the whole change over the packings, over
 //   their number: it is zero at the centre and grows with what is asked.
+//   x of a parameter is the logarithm of its physical value over the centre's (the share of its range
+//   where it may be zero or negative), because stiffness and strength scale as powers and z bends
+//   near its bounds.
 // Why: a brittle specimen breaks along another path after any change, so that one run's difference
 //   is noise; here noise is averaged, and what is left of it is known to the scores. A probe costs
 //   no run, so that one design serves many data sets and thousands of resamples.
@@ -28,7 +31,7 @@ namespace bondlab::diagnose {
 struct EmulatorPlan {
   int centre = 16;          // packings of the centre's mean
   int differences = 6;      // of them, those that the differences are taken on; at least 4
-  double least_step = 0.5;  // of parameters, in z
+  double step = 0.12;       // of parameters, in x
 };
 
 class EmulatedProber : public Prober {
@@ -45,8 +48,10 @@ class EmulatedProber : public Prober {
 
   const ModelPoint &centre() const { return centre_; }
   const Eigen::MatrixXd &centre_rows() const { return rows_; }  // packings x rows
-  // Whether a fitted point lies within the steps that were made.
+  // Whether a fitted point's parameters lie within twice the steps that were made.
   bool covers(const ModelPoint &point) const;
+  // The centre moved towards a point, as far as the steps can be trusted.
+  ModelPoint towards(const ModelPoint &point) const;
   // The engine itself at these points: the centre's mean and the change on the same packings.
   std::vector<Eigen::VectorXd> confirm(const std::vector<ModelPoint> &points);
   // Makes an effect's runs anew, at the sizes that engine and entry now have.
@@ -72,7 +77,10 @@ class EmulatedProber : public Prober {
   ForwardProber &engine_;
   ModelPoint centre_;
   std::vector<int> packings_;  // of the differences
-  std::vector<double> steps_;
+  ModelPoint moved(std::size_t parameter, double x) const;  // of the centre; cut at its bounds
+  double coordinate(std::size_t parameter, const ModelPoint &point) const;
+  std::vector<std::vector<double>> parameter_knots_;  // x
+  double step_;
   Eigen::MatrixXd rows_;
   Eigen::VectorXd mean_, scatter_;  // of the centre: mean, variance over packings
   std::vector<Way> parameters_, effects_;

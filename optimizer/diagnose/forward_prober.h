@@ -72,6 +72,7 @@ class ForwardProber : public Prober {
 
   ModelPoint start() const;
   std::vector<double> physical(const ModelPoint &point) const;
+  const ParameterSpace &space() const { return space_; }
   const std::vector<ProbedSeries> &series() const { return series_; }
   const std::vector<int> &packings() const { return packings_; }
   int rows() const { return rows_; }

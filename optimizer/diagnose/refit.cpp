@@ -8,9 +8,10 @@ namespace bondlab::diagnose {
 
 namespace {
 
-constexpr int most_steps = 12;
+constexpr int most_steps = 20;
 constexpr double gain_left = 0.01;  // in chi squared
 constexpr double longest_step = 1;  // in z
+constexpr double farthest = 4;      // in z: within 2 % of a bound, where nothing changes any more
 
 // Whitened differences (simulated) over steps. Columns of points that failed are zero.
 Eigen::MatrixXd differences(const std::vector<Eigen::VectorXd> &rows, std::size_t first,
@@ -59,7 +60,9 @@ Eigen::MatrixXd columns_at(Prober &prober, const Whitening &whitening, const Mod
 void move(ModelPoint &point, const Eigen::VectorXd &step, const std::vector<std::size_t> &effects,
           const std::vector<EffectEntry> &catalogue, std::vector<bool> &at_bound) {
   const Eigen::Index p = point.z.size();
-  point.z += step.head(p);
+  for (Eigen::Index i = 0; i < p; ++i)
+    point.z(i) = std::clamp(point.z(i) + step(i), std::min(point.z(i), -farthest),
+                            std::max(point.z(i), farthest));
   for (std::size_t i = 0; i < effects.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(effects[i]);
     const auto &entry = catalogue[effects[i]];

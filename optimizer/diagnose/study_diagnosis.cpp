@@ -23,7 +23,6 @@ namespace {
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr int null_draws = 2000, placebo_draws = 200, most_moves = 5;
 constexpr std::size_t least_for_holdout = 5;
-constexpr double longest_move = 2.5;  // in steps of the emulator
 constexpr int most_rounds = 3;
 constexpr double contender = 40;            // behind the best in deviance
 constexpr double size_low = 5, size_aim = 8;  // noise units that an effect is switched on at
@@ -184,16 +183,10 @@ void settle(StudyModel &model, const std::vector<MeasuredSeries> &all, const std
     Refit fit;
     fit_base(prober, evidence, model.catalogue(), emulated.centre(), fit, whitening);
     if (emulated.covers(fit.point) || move == most_moves) return;
-    ModelPoint next = emulated.centre();
-    for (std::size_t i = 0; i < emulated.parameters(); ++i) {
-      const auto k = static_cast<Eigen::Index>(i);
-      const double longest = longest_move * emulated.parameter_step(i);
-      next.z(k) += std::clamp(fit.point.z(k) - next.z(k), -longest, longest);
-    }
     say(fmt::format("the fit is at chi squared {:.1f} of {} rows, beyond the steps made: centre "
                     "moved",
                     fit.chi2, parts.training_rows.size()));
-    model.move_to(next);
+    model.move_to(emulated.towards(fit.point));
   }
 }
 

@@ -55,6 +55,7 @@ Engine find_engine() {
   engine.program = fs::absolute(engine.program);
   engine.mpirun = find_mpirun();
   engine.hash = sha256_file(engine.program);
+  engine.alone_without_mpirun = std::getenv("BONDLAB_MPIRUN") == nullptr;
   return engine;
 }
 

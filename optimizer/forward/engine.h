@@ -17,6 +17,9 @@ struct Engine {
   std::filesystem::path program;  // lmp_bondlab
   std::filesystem::path mpirun;
   std::string hash;  // SHA-256 of the program
+  // A run on one rank is started without mpirun, whose own start costs more than a small run;
+  // not when the user named a launcher by BONDLAB_MPIRUN.
+  bool alone_without_mpirun = false;
 };
 
 Engine find_engine();

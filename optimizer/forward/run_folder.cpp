@@ -22,7 +22,9 @@ constexpr const char *kReplay = "replay.sh";
 const std::map<std::string, std::string> &mpi_environment() {
   static const std::map<std::string, std::string> variables{{"OMPI_ALLOW_RUN_AS_ROOT", "1"},
                                                             {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
-                                                            {"OMP_NUM_THREADS", "1"}};
+                                                            {"OMP_NUM_THREADS", "1"},
+                                                            // alone: no daemon beside the run
+                                                            {"OMPI_MCA_ess_singleton_isolated", "1"}};
   return variables;
 }
 
@@ -79,17 +81,12 @@ std::string new_run_folder(const fs::path &results, std::int64_t id, const RunPl
 std::vector<std::string> engine_command(const Engine &engine, const RunPlan &plan) {
   // --bind-to none: several mpirun at a time would all bind to the first cores. --oversubscribe:
   // the slots are counted by us.
-  std::vector<std::string> command{engine.mpirun.string(),
-                                   "-np",
-                                   std::to_string(plan.ranks),
-                                   "--oversubscribe",
-                                   "--bind-to",
-                                   "none",
-                                   engine.program.string(),
-                                   "-in",
-                                   plan.deck.string(),
-                                   "-log",
-                                   kLogName};
+  std::vector<std::string> command;
+  if (plan.ranks > 1 || !engine.alone_without_mpirun)
+    command = {engine.mpirun.string(), "-np", std::to_string(plan.ranks), "--oversubscribe",
+               "--bind-to", "none"};
+  command.insert(command.end(),
+                 {engine.program.string(), "-in", plan.deck.string(), "-log", kLogName});
   const auto add = [&command](const std::string &name, const std::string &text) {
     command.insert(command.end(), {"-var", name, text});
   };

@@ -127,6 +127,17 @@ TEST(EngineCommand, GivesTheDeckEverythingByVar) {
   EXPECT_NE(command.find("|-log|log.bondlab"), std::string::npos);
 }
 
+TEST(EngineCommand, StartsOneRankWithoutALauncherUnlessTheUserNamedOne) {
+  const FakeEngine fake;
+  Engine engine = fake.settings.engine;
+  RunPlan plan = plan_run(fake.study, fake.request(-0.0));
+  EXPECT_EQ(engine_command(engine, plan).front(), engine.mpirun.string());
+  engine.alone_without_mpirun = true;
+  EXPECT_EQ(engine_command(engine, plan).front(), engine.program.string());
+  plan.ranks = 2;
+  EXPECT_EQ(engine_command(engine, plan).front(), engine.mpirun.string());
+}
+
 TEST(Quoted, SurvivesAShell) { EXPECT_EQ(quoted("it's 5 $x"), "'it'\\''s 5 $x'"); }
 
 }  // namespace
