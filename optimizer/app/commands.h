@@ -29,6 +29,7 @@ void add_specimen(CLI::App &app);
 void add_view(CLI::App &app);
 void add_diagnose(CLI::App &app);
 void add_hide(CLI::App &app);
+void add_trial(CLI::App &app);
 
 // Where the results of a study go: --out, or bondlab-results/<study name> in the current directory.
 std::string results_directory(const std::string &out_option, const std::string &study_name);

@@ -12,6 +12,8 @@
 
 #include "app/commands.h"
 #include "report/diagnosis_files.h"
+#include "report/trial_table.h"
+#include "diagnose/hidden_trial.h"
 #include "diagnose/hide.h"
 #include "forward/engine_forward_model.h"
 #include "forward/interrupt.h"
@@ -109,6 +111,43 @@ void run_hide(Hiding asked) {
              (fs::path(asked.out) / "sealed_truth.json").string());
 }
 
+struct Trying {
+  std::string set, out;
+  int jobs = 0;
+  diagnose::TrialOptions options;
+};
+
+void run_trial_command(const Trying &asked) {
+  const auto set = diagnose::read_hidden_set(asked.set);
+  const Study laboratory = read_study(set.laboratory);
+  check_response_functions(laboratory);
+  const auto catalogue = effects_from({}, {"effects"});
+  const auto outside = effects_from({}, {"hidden/outside"});
+  for (const auto &id : asked.options.only)
+    if (std::none_of(set.cases.begin(), set.cases.end(),
+                     [&](const diagnose::HiddenCase &c) { return c.id == id; }))
+      throw UserError("--case: '" + id + "' is not in " + asked.set);
+  catch_interrupts();
+  diagnose::TrialOptions options = asked.options;
+  options.out = results_directory(asked.out, "trial");
+  options.diagnosis.holdout = "none";
+  std::vector<diagnose::TrialCase> done;
+  const auto say = [](const std::string &line) {
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+  };
+  diagnose::run_trial(
+      set, laboratory, catalogue, outside,
+      [&](const fs::path &folder) { return engine_on(laboratory, folder, asked.jobs); }, options,
+      say, [&](const diagnose::TrialCase &trial) {
+        done.push_back(trial);
+        say(diagnose::trial_line(trial));
+        diagnose::write_trial(done, options.out);
+      });
+  fmt::print("\n{}\ntable: {}\n", diagnose::trial_markdown(done),
+             (options.out / "trial.md").string());
+}
+
 }  // namespace
 
 void add_diagnose(CLI::App &app) {
@@ -120,11 +159,11 @@ void add_diagnose(CLI::App &app) {
                       "directory of the results (default: bondlab-results/STUDY-NAME)");
   command->add_option("--data", asked->data, "data folder instead of the study's own");
   command->add_option("--holdout", asked->options.holdout,
-                      "series not used until the end, or none (default: the last of three or more)");
-  command->add_option("--packings", asked->options.packings, "packings the model's mean is over")
-      ->check(CLI::Range(1, 100));
-  command->add_option("--scatter", asked->options.scatter, "packings its scatter is measured over")
-      ->check(CLI::Range(3, 1000));
+                      "series not used until the end, or none (default: the last of five or more)");
+  command->add_option("--packings", asked->options.packings, "packings that differences are taken on")
+      ->check(CLI::Range(4, 100));
+  command->add_option("--scatter", asked->options.scatter, "packings of the model's mean and its scatter")
+      ->check(CLI::Range(6, 1000));
   command->add_option("--seed", asked->options.seed, "of the null and the resamples");
   command->callback([asked] { run_diagnose(*asked); });
 }
@@ -150,6 +189,27 @@ void add_hide(CLI::App &app) {
       ->check(CLI::Range(2, 99));
   command->add_option("--out", asked->out, "data folder to write")->required();
   command->callback([asked] { run_hide(*asked); });
+}
+
+void add_trial(CLI::App &app) {
+  CLI::App *command = app.add_subcommand(
+      "trial", "Hide the effects of a set one by one, and see whether diagnose finds them");
+  const auto asked = std::make_shared<Trying>();
+  command->add_option("SET", asked->set, "hidden set (TOML)")->required();
+  command->add_option("--out", asked->out,
+                      "directory of the results (default: bondlab-results/trial)");
+  command->add_option("--case", asked->options.only, "id of a case; may be given again")
+      ->delimiter(',');
+  command->add_option("--jobs", asked->jobs, "forward runs at a time")->check(CLI::PositiveNumber);
+  command
+      ->add_option("--packings", asked->options.diagnosis.packings,
+                   "packings that differences are taken on")
+      ->check(CLI::Range(4, 100));
+  command
+      ->add_option("--scatter", asked->options.diagnosis.scatter,
+                   "packings of the model's mean and its scatter")
+      ->check(CLI::Range(6, 1000));
+  command->callback([asked] { run_trial_command(*asked); });
 }
 
 }  // namespace bondlab

@@ -52,6 +52,7 @@ int main(int argc, char **argv) {
     bondlab::add_view(app);
     bondlab::add_diagnose(app);
     bondlab::add_hide(app);
+    bondlab::add_trial(app);
     refuse_unknown_command(app, argc, argv);
     app.parse(argc, argv);
     return 0;

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/random.h"
@@ -87,6 +88,19 @@ std::string noisy_curve(const Curve &curve, const std::string &label, RandomStre
 }
 
 }  // namespace
+
+std::vector<double> sealed_parameters(const std::filesystem::path &folder, const Study &study) {
+  std::ifstream file(folder / "sealed_truth.json");
+  if (!file) throw UserError(Place{(folder / "sealed_truth.json").string(), 0, 0}, "can't be read");
+  const auto sealed = nlohmann::json::parse(file);
+  std::vector<double> out;
+  for (const auto &p : study.parameters) out.push_back(sealed.at("parameters").at(p.name));
+  return out;
+}
+
+double admissible_size(const Study &study, const EffectDefinition &effect) {
+  return effect.measures.empty() ? entry_of(study, effect).largest : effect.largest;
+}
 
 void hide_effect(const Study &study, const std::vector<EffectDefinition> &all,
                  const ModelFactory &factory, const HideOptions &options,

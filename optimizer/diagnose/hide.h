@@ -27,6 +27,13 @@ struct HideOptions {
   double spread = 0.3;  // sd of the parameters about their starts, in z
 };
 
+// Parameters in a data folder's sealed truth, in the study's order, SI. Nothing but a trial's
+// judgement calls this.
+std::vector<double> sealed_parameters(const std::filesystem::path &folder, const Study &study);
+
+// Largest size of an effect that every deck of the study takes, SI.
+double admissible_size(const Study &study, const EffectDefinition &effect);
+
 void hide_effect(const Study &study, const std::vector<EffectDefinition> &effects,
                  const ModelFactory &model, const HideOptions &options,
                  const std::filesystem::path &out,

@@ -11,6 +11,7 @@
 
 #include "base/random.h"
 #include "base/units.h"
+#include "diagnose/comparators.h"
 #include "diagnose/null_table.h"
 #include "diagnose/omnibus.h"
 #include "diagnose/row_selection.h"
@@ -211,8 +212,8 @@ std::map<std::size_t, double> beyond_what_was_run(StudyModel &model, const Diagn
   return out;
 }
 
-// Effects whose change at switch-on is lost in noise are taken at a size that is not: differences
-// are no better than what they rise above.
+}  // namespace
+
 void scale_to_noise(StudyModel &model, Prober &prober, const Evidence &evidence,
                     const std::function<void(const std::string &)> &say) {
   const Whitening plan(without_data(evidence));
@@ -235,8 +236,6 @@ void scale_to_noise(StudyModel &model, Prober &prober, const Evidence &evidence,
     model.rescale(larger);
   }
 }
-
-}  // namespace
 
 StudyDiagnosis diagnose_measured(StudyModel &model, std::vector<MeasuredSeries> series,
                                  const StudyDiagnosisOptions &options, bool confirm,
@@ -275,6 +274,7 @@ StudyDiagnosis diagnose_measured(StudyModel &model, std::vector<MeasuredSeries> 
   if (out.isolability.empty()) say("all effects that these tests see can be told apart");
 
   const auto names = model.parameter_names();
+  double omnibus_alarm = 0;
   for (int round = 0;; ++round) {
     out.catalogue = model.catalogue();
     Whitening whitening(evidence);
@@ -286,6 +286,7 @@ StudyDiagnosis diagnose_measured(StudyModel &model, std::vector<MeasuredSeries> 
         study_null({study, parts.training, by_packing, evidence, prober.uncertainty(base.point),
                     whitening.undo(fitted.jacobian), whitening.undo(fitted.traces)}),
         alarm_rate, null_draws, options.seed);
+    omnibus_alarm = null.omnibus_alarm;
     DiagnoseOptions how;
     how.seed = options.seed;
     out.diagnosis = diagnose(prober, evidence, {out.catalogue, names, null}, at, how);
@@ -299,6 +300,18 @@ StudyDiagnosis diagnose_measured(StudyModel &model, std::vector<MeasuredSeries> 
   }
 
   const auto &d = out.diagnosis;
+  {
+    const Projection fitted(d.model.jacobian);
+    const Whitening whitening(evidence, prober.uncertainty(d.before.point));
+    const Omnibus omnibus(evidence, whitening, names, d.model.jacobian);
+    const ScoreTable scores(fitted, d.model, out.catalogue);
+    const Eigen::VectorXd residual = fitted.off(d.model.residual);
+    out.others = {name_by_largest_residual(omnibus, Omnibus::Prepared(omnibus, fitted), scores,
+                                           residual, omnibus_alarm),
+                  name_by_bic(scores, residual), name_by_lasso(scores, out.catalogue, residual)};
+  }
+  if (!d.effects.empty())
+    out.cross = cross_gap(prober, evidence, out.catalogue, d, options.seed);
   const ParameterSpace space(study.parameters);
   out.parameters_before = model.engine().physical(d.before.point);
   out.parameters_after = model.engine().physical(d.after.point);

@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnose/cross_gap.h"
 #include "diagnose/diagnose.h"
 #include "diagnose/study_evidence.h"
 #include "diagnose/study_model.h"
@@ -66,12 +67,15 @@ struct StudyDiagnosis {
   std::vector<double> sd_before, sd_after;  // physical, linear
   std::vector<double> sizes;                // of all effects, after
   Gap gap;
+  CrossGap cross;              // of what was named, every series held out in turn
   double confirmed_gain = 0;   // in chi squared, of the engine's own rows; NaN: not run
   std::vector<double> z_before, z_after;  // parameters, transformed
   std::vector<SeriesGap> by_series;
   std::vector<RowKey> rows;  // those diagnosed
   std::vector<ShownSeries> shown;
   std::vector<std::string> advice;
+  // Names by largest residual, BIC and LASSO (comparators.h) on the same rows.
+  std::vector<std::vector<std::size_t>> others;
   int runs = 0;
 };
 
@@ -83,6 +87,10 @@ struct StudySinks {
 StudyDiagnosis diagnose_study(const Study &study, const std::vector<EffectDefinition> &effects,
                               const ModelFactory &model, const StudyDiagnosisOptions &options,
                               const StudySinks &sinks = {});
+
+// Takes effects whose change at switch-on is lost in the plan's noise at a size that is not.
+void scale_to_noise(StudyModel &model, Prober &prober, const Evidence &evidence,
+                    const std::function<void(const std::string &)> &say);
 
 // The same for data of a plan that `model` was made for, with its effects added. `confirm`: the
 // engine is run at the fits; else the emulator's word stands for it.

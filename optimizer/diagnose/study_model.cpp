@@ -46,10 +46,16 @@ void StudyModel::add_effects() {
 
 void StudyModel::rescale(const std::map<std::size_t, double> &switch_on) {
   for (const auto &[effect, size] : switch_on) {
+    if (catalogue_[effect].switch_on == size) continue;
     catalogue_[effect].switch_on = size;
     engine_->rescale(effect, size);
     emulated_->renew(effect, catalogue_[effect]);
   }
+}
+
+void StudyModel::forbid(const std::function<bool(const std::string &)> &whose) {
+  for (auto &entry : catalogue_)
+    if (whose(entry.name)) entry.lowest = entry.largest = 0;
 }
 
 std::vector<std::string> StudyModel::parameter_names() const {

@@ -37,6 +37,9 @@ class StudyModel {
   // Takes effects at other sizes: switch-on size by effect.
   void rescale(const std::map<std::size_t, double> &switch_on);
 
+  // Effects that `whose` says stay known to the prober, but no diagnosis may name them.
+  void forbid(const std::function<bool(const std::string &)> &whose);
+
   const Study &study() const { return study_; }
   const std::vector<EffectDefinition> &effects() const { return effects_; }
   const std::vector<EffectEntry> &catalogue() const { return catalogue_; }

@@ -19,6 +19,9 @@ namespace {
 constexpr double kHeartbeatInterval = 10;   // s
 constexpr double kReportInterval = 1;       // s
 constexpr double kElsewhereInterval = 0.5;  // s between looks at runs of other processes
+// Jobs that wait for cores and are looked at: in a batch of thousands the rest must not cost a look
+// every few milliseconds.
+constexpr int kLookAhead = 32;
 constexpr auto kNap = std::chrono::milliseconds(3);
 
 double seconds_between(std::chrono::steady_clock::time_point a,
@@ -61,13 +64,20 @@ std::vector<ForwardOutcome> EngineForwardModel::Batch::run(
   for (Job &job : jobs_)
     if (job.stage == Stage::pending) look_up(job);
   report(true);
-  while (!all_settled()) {
+  std::size_t first_open = 0;  // all before it are settled
+  while (true) {
+    while (first_open < jobs_.size() && jobs_[first_open].stage == Stage::settled) ++first_open;
+    if (first_open == jobs_.size()) break;
     if (const int signal = interrupt_signal()) throw Interrupted(signal);
     bool busy = false;
-    for (Job &job : jobs_) {
+    int waiting = 0;
+    for (std::size_t i = first_open; i < jobs_.size() && waiting < kLookAhead; ++i) {
+      Job &job = jobs_[i];
       if (job.stage == Stage::pending && fits(job)) {
         start(job);
         busy = true;
+      } else if (job.stage == Stage::pending) {
+        ++waiting;
       } else if (job.stage == Stage::running && job.process->poll()) {
         finish(job);
         busy = true;
@@ -316,11 +326,6 @@ void EngineForwardModel::Batch::settle_failed(Job &job, const Failure &failure) 
   store_.finish_failed(job.id, failure, job.outcome.wall_seconds);
   failed_here_[job.key.full] = job.outcome;
   job.stage = Stage::settled;
-}
-
-bool EngineForwardModel::Batch::all_settled() const {
-  return std::all_of(jobs_.begin(), jobs_.end(),
-                     [](const Job &job) { return job.stage == Stage::settled; });
 }
 
 BatchProgress EngineForwardModel::Batch::count() const {

@@ -53,7 +53,6 @@ class EngineForwardModel::Batch {
   void finish(Job &job);
   void settle_failed(Job &job, const Failure &failure);
   void fill_common(Job &job, const std::string &directory);
-  bool all_settled() const;
   void report(bool force);
   BatchProgress count() const;
   double seconds_left() const;
