@@ -201,6 +201,8 @@ void add_trial(CLI::App &app) {
   command->add_option("--case", asked->options.only, "id of a case; may be given again")
       ->delimiter(',');
   command->add_option("--jobs", asked->jobs, "forward runs at a time")->check(CLI::PositiveNumber);
+  command->add_flag("--confirm", asked->options.confirm,
+                    "run the engine itself at the fits before and after");
   command
       ->add_option("--packings", asked->options.diagnosis.packings,
                    "packings that differences are taken on")

@@ -233,7 +233,7 @@ std::vector<TrialCase> run_trial(const HiddenSet &set, const Study &laboratory,
     hide(c, trial.sizes);
     const Study study = with_data(laboratory, folder_of(c));
     const auto result =
-        diagnose_measured(model, measured_series(study), options.diagnosis, true, {});
+        diagnose_measured(model, measured_series(study), options.diagnosis, options.confirm, {});
     const auto &d = result.diagnosis;
     trial.verdict = d.verdict;
     for (const auto &effect : d.effects) {

@@ -52,6 +52,7 @@ struct TrialCase {
 struct TrialOptions {
   std::filesystem::path out;      // data of the cases go to out/data
   std::vector<std::string> only;  // ids; empty: all
+  bool confirm = false;           // run the engine at the fits before and after
   StudyDiagnosisOptions diagnosis;
 };
 

@@ -11,6 +11,8 @@ namespace bondlab::diagnose {
 
 namespace {
 
+constexpr double instrument = 1e-3;  // sd of a row that no laboratory is better than, one specimen
+
 MeasuredSeries from_curves(const Study &study, const Measurement &measurement, bool whole) {
   MeasuredSeries out;
   out.probed.name = measurement.name;
@@ -209,6 +211,9 @@ Evidence evidence_of(const Study &study, const std::vector<MeasuredSeries> &seri
         s.stated.size() > 0
             ? s.stated
             : pooled(by_packing.middleCols(evidence.first, evidence.count), s.replicates);
+    // Before others read it: a row that hardly scatters would count for more than any instrument.
+    evidence.stated.diagonal() =
+        evidence.stated.diagonal().cwiseMax(instrument * instrument);
     evidence.simulated = covariance / static_cast<double>(by_packing.rows());
     for (const auto &q : s.probed.quantities)
       out.rows.push_back({evidence.test, evidence.name, q.part, q.name});

@@ -7,7 +7,7 @@
 //   their logarithms, with the sd stated. Specimens are taken to scatter as the simulation's
 //   packings do at the fitted point (measured, with the correlations drawn towards zero as far as
 //   few packings do not carry them), pooled with what the replicates scatter about their own mean,
-//   and at least that in each row; the mean over P packings has a P-th of the packings' covariance.
+//   and at least that in each row, and at least 0.1 %, which no instrument is better than; the mean over P packings has a P-th of the packings' covariance.
 // Units: SI in; rows have none. Failure: UserError when nothing of the data can be compared.
 // Limits: with few packings the shape of the covariance is that of its diagonal.
 #pragma once
