@@ -50,6 +50,7 @@ void read_settings(TomlTable &top, EffectDefinition &effect) {
     EffectSetting setting;
     setting.place = table.place();
     setting.variable = table.text("variable", true);
+    setting.unless = table.text("unless");
     if (table.has("word")) {
       setting.rule = SetRule::word;
       setting.word = table.text("word", true);
@@ -144,6 +145,8 @@ std::map<std::string, double> with_effect(const EffectDefinition &effect, double
     if (setting.rule == SetRule::word) continue;
     const auto it = out.find(setting.variable);
     if (it == out.end()) continue;
+    const auto away = without.find(setting.unless);
+    if (away != without.end() && away->second > 0) continue;
     touched = true;
     switch (setting.rule) {
       case SetRule::set:

@@ -35,6 +35,7 @@ struct EffectSetting {
   std::string variable;
   SetRule rule = SetRule::add;
   double value = 0;  // of `fixed`, SI
+  std::string unless;  // a deck variable: above 0 it keeps the effect away from this one
   std::string word;
   Place place;
 };

@@ -107,6 +107,19 @@ TEST_F(Effects, ANumberThatGoesWithTheEffectIsSetWhateverTheSizeAndOnlyWithIt) {
   EXPECT_NE(complaint().find("value"), std::string::npos) << complaint();
 }
 
+TEST_F(Effects, AVariableAboveZeroKeepsAnEffectAwayFromItsTest) {
+  write("own", changed("rule = \"add\"", "rule = \"add\"\nunless = \"pressure\""));
+  const auto effect = read_effects(folder_)[0];
+  const auto at = [&](double pressure) {
+    bool touched = false;
+    const auto out = with_effect(effect, 0.2, {{"platen_mu", 0.3}, {"pressure", pressure}}, touched);
+    EXPECT_EQ(touched, pressure == 0);
+    return out.at("platen_mu");
+  };
+  EXPECT_DOUBLE_EQ(at(0), 0.5);
+  EXPECT_DOUBLE_EQ(at(1e6), 0.3);
+}
+
 TEST_F(Effects, AnErrorOfMeasuringNeedsNoDeckVariable) {
   write("own", changed("[[sets]]\nvariable = \"platen_mu\"\nrule = \"add\"\n",
                        "[[measures]]\ncolumns = \"loads\"\ntest = \"brazilian\"\nrule = \"drift\"\n"));
