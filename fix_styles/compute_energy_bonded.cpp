@@ -10,13 +10,15 @@
 #include "domain.h"
 #include "error.h"
 #include "exact_sum_mpi.h"
+#include "fix_damp_local.h"
 #include "force.h"
+#include "modify.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
 
 namespace {
-enum Part { BOND, CONTACT, TRANSLATION, ROTATION, LOST, CREEP, INTACT, PARTS };
+enum Part { BOND, CONTACT, TRANSLATION, ROTATION, LOST, CREEP, INTACT, LOCAL, PARTS };
 }
 
 ComputeEnergyBonded::ComputeEnergyBonded(LAMMPS *lmp, int &iarg, int narg, char **arg)
@@ -67,6 +69,9 @@ void ComputeEnergyBonded::compute_vector() {
     sums.add(TRANSLATION, 0.5 * m * v2);
     sums.add(ROTATION, 0.5 * inertia * m * r * r * w2);
   }
+  for (int k = 0; k < modify->nfix; k++)
+    if (const FixDampLocal *damping = dynamic_cast<FixDampLocal *>(modify->fix[k]))
+      for (int i = 0; i < atom->nlocal; i++) sums.add(LOCAL, damping->dissipated(i));
   bondlab::sum_over_ranks(sums, world);
   for (int k = 0; k < PARTS; k++) vector[k] = sums.value(k);
 }

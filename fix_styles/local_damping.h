@@ -25,6 +25,13 @@ inline double locally_damped(double force, double velocity, double alpha) {
   return force - (velocity == 0.0 ? 0.0 : against);
 }
 
+// The part of a damped force that damping added: locally_damped() backwards. alpha < 1.
+inline double damping_part(double damped, double velocity, double alpha) {
+  const double speeds_up = damped * velocity;
+  if (speeds_up == 0.0) return 0.0;
+  return speeds_up > 0.0 ? -alpha / (1.0 - alpha) * damped : alpha / (1.0 + alpha) * damped;
+}
+
 inline void damp_locally(double *__restrict force, const double *__restrict velocity,
                          std::size_t count, double alpha) {
   for (std::size_t k = 0; k < count; ++k) force[k] = locally_damped(force[k], velocity[k], alpha);

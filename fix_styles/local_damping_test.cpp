@@ -29,6 +29,15 @@ TEST(LocalDamping, NaNIsNotHidden) {
   EXPECT_TRUE(std::isnan(locally_damped(nan, 1.0, 0.7)));
 }
 
+TEST(LocalDamping, PartOfDampingIsWhatWasAdded) {
+  for (const double alpha : {0.0, 0.3, 0.7})
+    for (const double force : {-3.0, 0.0, 2.0})
+      for (const double velocity : {-1.0, 0.0, 0.5}) {
+        const double damped = locally_damped(force, velocity, alpha);
+        EXPECT_NEAR(damping_part(damped, velocity, alpha), damped - force, 2e-15) << force << ' ' << velocity;
+      }
+}
+
 TEST(LocalDamping, ArraysOfAnyLength) {
   for (std::size_t n = 0; n < 40; ++n) {
     std::vector<double> f(n), v(n);

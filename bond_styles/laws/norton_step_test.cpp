@@ -177,6 +177,15 @@ TEST(NortonStep, coupled_step_is_bounded_at_any_size) {
       }
 }
 
+// Where little creeps the first look is enough; the second comes in time.
+TEST(NortonStep, small_coupled_steps_are_good_to_1e10) {
+  for (const double S : {1.0, 1.2, 1.5})
+    for (const double m : {1.5, 2.0, 3.5, 5.0})
+      for (const double mix : {0.1, 0.3, 0.5, 0.7, 0.9})
+        for (const double h : {1e-5, 0.99e-3, 1.01e-3, 3e-3, 1e-2})
+          EXPECT_LT(coupled_error(S, m, mix, h / (1 + (S - 1) * mix)), 1.5e-10) << S << " " << m << " " << mix << " " << h;
+}
+
 // One step or many: the stresses go to the same place, closer with more steps.
 TEST(NortonStep, coupled_steps_converge_to_a_fine_reference) {
   const double E = 1.0, S = 1.2, m = 3.5;
