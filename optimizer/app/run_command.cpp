@@ -3,7 +3,11 @@
 // Job: `bondlab run STUDY`: one point of a study through its tests, with the responses beside what
 // was measured. Method: parameters have their start values unless --set gives others (also outside
 // the bounds, which are the fit's); runs
-//   go through the study's run store, so that a point known already costs nothing.
+//   go through the study's run store, so that a point known already costs nothing. --half-speed runs
+//   every test a second time with its platens at half the speed and shows what that shifts: the part
+//   of a response that is the run's haste and not the specimen's (some per cent are usual for a
+//   strength, 1 % for a modulus; more means that the speed is too high). The cost is the run's own
+//   loop time over its steps and the bonds at the start.
 // Units: --set takes quantities with units; responses are shown in the units of their targets.
 // Failure: exit status 2 with
 //   cause, folder and last log lines when a run fails.
@@ -11,12 +15,16 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 
 #include "app/commands.h"
 #include "base/units.h"
 #include "forward/engine_forward_model.h"
 #include "forward/interrupt.h"
+#include "forward/run_plan.h"
 #include "response/check.h"
 #include "response/response.h"
 #include "study/parameter_space.h"
@@ -29,6 +37,7 @@ struct Options {
   std::string study, out;
   std::vector<std::string> set, tests;
   int packing = 0, jobs = 0;
+  bool half_speed = false;
 };
 
 // "E_c=25 GPa" into the values, which stand in the order of the study's parameters.
@@ -60,9 +69,43 @@ const Target *target_of(const Study &study, const std::string &test, const std::
   return nullptr;
 }
 
-void print_responses(const Study &study, const TestEntry &test, const ForwardOutcome &outcome) {
-  fmt::print("{}: run {}, {:.1f} s{}\n", test.name, outcome.run_id, outcome.wall_seconds,
-             outcome.from_store ? " (from the store)" : "");
+// The platens' speed in a deck; empty where nothing is driven (impact).
+std::string speed_variable(const TestEntry &test) {
+  for (const char *name : {"platen_speed", "shear_speed"})
+    if (test.definition.variables.count(name)) return name;
+  return "";
+}
+
+// ", 14900 steps, 1226 bonds, 310 ns a bond and step", from the run's own log; nothing if it isn't there.
+std::string measured_cost(const std::string &run_directory) {
+  std::ifstream log(std::filesystem::path(run_directory) / "log.bondlab");
+  double seconds = 0, ranks = 0, steps = 0, bonds = 0;
+  for (std::string line; std::getline(log, line);) {
+    double a = 0, b = 0, c = 0;
+    if (std::sscanf(line.c_str(), "Loop time of %lf on %lf procs for %lf steps", &a, &b, &c) == 3)
+      seconds += a, ranks = b, steps += c;
+    else if (line.find(" bonds installed") != std::string::npos && std::sscanf(line.c_str(), " %lf", &a) == 1)
+      bonds += a;
+  }
+  if (steps <= 0 || bonds <= 0) return "";
+  return fmt::format(", {:.0f} steps, {:.0f} bonds, {:.0f} ns a bond and step{}", steps, bonds,
+                     1e9 * seconds / steps / bonds, ranks > 1 ? fmt::format(" on {:.0f} ranks", ranks) : "");
+}
+
+// How far a response moves when the platens go half as fast.
+std::string shift_at_half_speed(const std::string &function, double value, const ForwardOutcome &half) {
+  if (!half.ok) return "half speed: " + half.failure.message;
+  try {
+    return fmt::format("half speed {:+.1f} %", 100 * (evaluate(function, half.curve, {half.deck_variables}) / value - 1));
+  } catch (const ResponseError &error) {
+    return std::string("half speed: none: ") + error.what();
+  }
+}
+
+void print_responses(const Study &study, const TestEntry &test, const ForwardOutcome &outcome,
+                     const ForwardOutcome *half) {
+  fmt::print("{}: run {}, {:.1f} s{}{}\n", test.name, outcome.run_id, outcome.wall_seconds,
+             outcome.from_store ? " (from the store)" : "", measured_cost(outcome.run_directory));
   for (const auto &[name, response] : test.definition.responses) {
     const Target *target = target_of(study, test.name, name);
     std::string shown, beside;
@@ -74,6 +117,7 @@ void print_responses(const Study &study, const TestEntry &test, const ForwardOut
         beside =
             fmt::format("measured {}, {:+.1f} %, {:+.1f} sd", format_quantity(target->value, unit),
                         100 * (value / target->value - 1), (value - target->value) / target->sd);
+      if (half) beside += (beside.empty() ? "" : "; ") + shift_at_half_speed(response.function, value, *half);
     } catch (const ResponseError &error) {
       shown = std::string("none: ") + error.what();
     }
@@ -115,6 +159,16 @@ void run(const Options &options) {
   std::vector<ForwardRequest> requests;
   for (const std::string &test : tests)
     requests.push_back({test, deck_variables(study, test, values), options.packing});
+  const std::size_t asked = requests.size();
+  std::vector<std::size_t> half(asked, 0);  // where the run at half the speed stands; 0: nowhere
+  for (std::size_t i = 0; options.half_speed && i < asked; ++i) {
+    const std::string speed = speed_variable(study.test(tests[i]));
+    if (speed.empty()) continue;
+    ForwardRequest slow = requests[i];
+    slow.variables[speed] = 0.5 * plan_run(study, requests[i]).numeric.at(speed);
+    half[i] = requests.size();
+    requests.push_back(slow);
+  }
 
   ForwardSettings settings;
   settings.results = results_directory(options.out, study.name);
@@ -132,9 +186,9 @@ void run(const Options &options) {
     fmt::print("{:<18} {}\n", study.parameters[i].name,
                format_quantity(values[i], study.parameters[i].unit, 6));
   std::string failures;
-  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+  for (std::size_t i = 0; i < asked; ++i) {
     if (outcomes[i].ok) {
-      print_responses(study, study.test(tests[i]), outcomes[i]);
+      print_responses(study, study.test(tests[i]), outcomes[i], half[i] ? &outcomes[half[i]] : nullptr);
       continue;
     }
     const Failure &failure = outcomes[i].failure;
@@ -164,6 +218,8 @@ void add_run(CLI::App &app) {
       ->add_option("--packing", options->packing,
                    "another packing: the study's seed plus this number")
       ->check(CLI::NonNegativeNumber);
+  command->add_flag("--half-speed", options->half_speed,
+                    "run each test at half the speed as well and show what that shifts");
   command->add_option("--jobs", options->jobs, "runs at a time; 0: as many as the cores take")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--out", options->out, "results folder (default: bondlab-results/<study>)");
