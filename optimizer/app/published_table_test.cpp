@@ -51,7 +51,8 @@ TEST(PublishedTable, exponents_have_a_constant_for_each_group) {
   PublishedFigures figures(6);
   for (std::size_t k = 0; k < 6; ++k)
     figures[k]["UCS"].add((k < 3 ? 1e6 : 7e6) * std::pow(study.cases[k].sizes.at("width") / 0.05, 2.5));
-  const PublishedTables tables = published_tables(study, {0, 1, 2, 3, 4, 5}, figures);
+  // without the last: in a balanced table one constant for all would give the same exponent
+  const PublishedTables tables = published_tables(study, {0, 1, 2, 3, 4}, figures);
   EXPECT_NE(tables.page.find("Exponent of width: published 2.600, ours 2.500."), std::string::npos)
       << tables.page;
 }
