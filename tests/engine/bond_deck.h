@@ -54,6 +54,11 @@ struct Preamble {
   }
 };
 
+// A law with its coefficients.
+struct Law {
+  const char *style, *words;
+};
+
 // The packing `small`, bonded by its list.
 inline Preamble small() {
   Preamble p;

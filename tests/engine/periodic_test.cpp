@@ -20,6 +20,7 @@ struct Box {
   int dimension = 3, n = 6;
   double spacing = 1.98e-3;  // m
   double drift = 0.0, own = 0.0;  // m/s
+  std::string style = "parallel";
   std::vector<double> mass;  // in units of 4/3 pi density, or pi t density
 
   double width() const { return n * spacing; }
@@ -54,6 +55,7 @@ struct Box {
     p.boundary = "p p p";
     p.specimen = "box.data";
     p.install = "gap 3e-4";
+    p.bond_style = style;
     p.bond = bond;
     p.contact = "5e9 2.0 0.4";
     p.skin = "2e-4";
@@ -124,22 +126,28 @@ TEST_P(Periodic, intact_body_drifts_through_the_faces) {
 }
 
 TEST_P(Periodic, breaking_body_is_the_same_on_1_2_and_4_ranks) {
-  Box box;
-  box.dimension = GetParam();
-  box.drift = 40.0, box.own = 8.0;
-  const auto deck = [&](const EngineFolder &f, const char *grid) {
-    return box.deck(f, "5e9 2.0 20e6 20e6 scatter weibull 4 4 seed 3", grid,
-                    "fix log all bond/log 10 broken.tsv\nvariable n equal ceil(2e-4/dt)\nrun $n\n");
-  };
-  EngineFolder one, two, four;
-  const std::string alone = run(deck(one, "1 1 1"), 1, one);
-  const std::size_t broken = read_table(one.file("broken.tsv")).rows.size();
-  EXPECT_GT(broken, box.dimension == 3 ? 100u : 10u);
-  EXPECT_LT(broken, box.dimension == 3 ? 648u : 72u);
-  EXPECT_TRUE(alone == run(deck(two, "2 1 1"), 2, two)) << "2 ranks";
-  EXPECT_EQ(one.read("broken.tsv"), two.read("broken.tsv"));
-  EXPECT_TRUE(alone == run(deck(four, box.dimension == 3 ? "1 2 2" : "2 2 1"), 4, four)) << "4 ranks";
-  EXPECT_EQ(one.read("broken.tsv"), four.read("broken.tsv"));
+  for (const Law &law : {Law{"parallel", "5e9 2.0 20e6 20e6 scatter weibull 4 4 seed 3"},
+                         Law{"beam/mohr/coulomb", "5e9 0.2 20e6 30 scatter weibull 4 seed 3 friction 0.3"},
+                         Law{"norton", "5e9 0.25 20e6 20e6 0 3 rate_at 20 5e6 moment_creep yes scatter weibull 4 4 seed 3"}}) {
+    SCOPED_TRACE(law.style);
+    Box box;
+    box.dimension = GetParam();
+    box.style = law.style;
+    box.drift = 40.0, box.own = 8.0;
+    const auto deck = [&](const EngineFolder &f, const char *grid) {
+      return box.deck(f, law.words, grid,
+                      "fix log all bond/log 10 broken.tsv\nvariable n equal ceil(2e-4/dt)\nrun $n\n");
+    };
+    EngineFolder one, two, four;
+    const std::string alone = run(deck(one, "1 1 1"), 1, one);
+    const std::size_t broken = read_table(one.file("broken.tsv")).rows.size();
+    EXPECT_GT(broken, box.dimension == 3 ? 100u : 10u);
+    EXPECT_LT(broken, box.dimension == 3 ? 648u : 72u);
+    EXPECT_TRUE(alone == run(deck(two, "2 1 1"), 2, two)) << "2 ranks";
+    EXPECT_EQ(one.read("broken.tsv"), two.read("broken.tsv"));
+    EXPECT_TRUE(alone == run(deck(four, box.dimension == 3 ? "1 2 2" : "2 2 1"), 4, four)) << "4 ranks";
+    EXPECT_EQ(one.read("broken.tsv"), four.read("broken.tsv"));
+  }
 }
 
 // Shifting everything by half a box changes which bonds are cut, and nothing else but rounding: positions
