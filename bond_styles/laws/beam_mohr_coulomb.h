@@ -199,6 +199,34 @@ inline BeamVerdict beam_softening(double was, double sigma, double tau, double t
   return {share, (was > 0.0) & (share <= 0.0) ? kind : 0.0};
 }
 
+// The criterion of one lane, the same in space and in the plane. fn, sigma, tau: effective.
+struct BeamLane {
+  double share, pull;        // of shear and couples that is carried; normal force, N
+  double sigma, tau, fate;   // report
+  double alive, worst, lost; // state after the step
+};
+template <bool advance, bool options>
+[[gnu::always_inline]] inline BeamLane beam_lane(double was, double fn, double sigma, double tau,
+                                                 double tan_phi, double cohesion, double cutoff,
+                                                 double failure, double energy, double worst,
+                                                 double lost) {
+  BeamLane r{was, fn, was * sigma, was * tau, 0.0, was, worst, lost};
+  BeamVerdict v;
+  if constexpr (options) {
+    const double seen = was * integrity(worst, failure);
+    v = beam_softening(was, sigma, tau, tan_phi, cohesion, cutoff, failure, energy, r.worst, r.lost);
+    r.share = advance ? v.share : seen;
+    r.pull = fn > 0.0 ? r.share * fn : (r.share > 0.0 ? fn : 0.0);
+    r.alive = r.share > 0.0 ? was : 0.0;
+  } else {
+    v = beam_verdict(was, sigma, tau, tan_phi, cohesion, cutoff);
+    r.share = r.alive = advance ? v.share : was;
+    r.pull = r.share * fn;
+  }
+  r.fate = advance ? v.fate : 0.0;
+  return r;
+}
+
 }  // namespace bondlab::laws
 
 #include "beam_mohr_coulomb_2d.h"

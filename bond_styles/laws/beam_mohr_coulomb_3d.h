@@ -55,33 +55,17 @@ void beam_block_3d(const Kinematics3 &k, const Orientations3 &o, const BeamArray
     const double tau =
         S * p.shear * per_area * p.inverse_distance + 2.0 * beta2[b] * rim * s.twist * std::fabs(p.twist);
     const double was = alive_b[b];
-    double share = was, pull = fn;
+    double energy = 0.0, failed = 1.0, worst = 0.0, lost = 0.0;
     if (options) {
-      double worst = worst_b[b], lost = lost_b[b];
-      const double seen = was * integrity(worst, failure[b]);
-      const double energy = 0.5 * ((stretch > 0.0 ? fn * stretch : 0.0) + S * p.shear * p.shear +
-                                   s.bend * p.bend * p.bend + s.twist * p.twist * p.twist);
-      const BeamVerdict v = beam_softening(was, sigma, tau, tan_phi[b], cohesion[b], cutoff[b],
-                                           failure[b], energy, worst, lost);
-      share = advance ? v.share : seen;
-      pull = fn > 0.0 ? share * fn : (share > 0.0 ? fn : 0.0);
-      sigma_b[b] = was * sigma;
-      tau_b[b] = was * tau;
-      fate_b[b] = advance ? v.fate : 0.0;
-      if (advance) {
-        alive_b[b] = share > 0.0 ? was : 0.0;
-        worst_b[b] = worst;
-        lost_b[b] = lost;
-      }
-    } else {
-      const BeamVerdict v = beam_verdict(was, sigma, tau, tan_phi[b], cohesion[b], cutoff[b]);
-      share = advance ? v.share : was;
-      pull = share * fn;
-      sigma_b[b] = was * sigma;
-      tau_b[b] = was * tau;
-      fate_b[b] = advance ? v.fate : 0.0;
-      if (advance) alive_b[b] = share;
+      energy = 0.5 * ((stretch > 0.0 ? fn * stretch : 0.0) + S * p.shear * p.shear + s.bend * p.bend * p.bend + s.twist * p.twist * p.twist);
+      failed = failure[b], worst = worst_b[b], lost = lost_b[b];
     }
+    const BeamLane r = beam_lane<advance, options>(was, fn, sigma, tau, tan_phi[b], cohesion[b], cutoff[b],
+                                                   failed, energy, worst, lost);
+    const double share = r.share, pull = r.pull;
+    sigma_b[b] = r.sigma, tau_b[b] = r.tau, fate_b[b] = r.fate;
+    if (advance) alive_b[b] = r.alive;
+    if (advance && options) worst_b[b] = r.worst, lost_b[b] = r.lost;
     was_b[b] = was;
     share_b[b] = share;
 
