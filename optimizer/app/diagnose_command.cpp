@@ -113,6 +113,7 @@ void run_hide(Hiding asked) {
 
 struct Trying {
   std::string set, out;
+  std::vector<std::string> effects, outside;  // folders
   int jobs = 0;
   diagnose::TrialOptions options;
 };
@@ -121,8 +122,8 @@ void run_trial_command(const Trying &asked) {
   const auto set = diagnose::read_hidden_set(asked.set);
   const Study laboratory = read_study(set.laboratory);
   check_response_functions(laboratory);
-  const auto catalogue = effects_from({}, {"effects"});
-  const auto outside = effects_from({}, {"hidden/outside"});
+  const auto catalogue = effects_from(asked.effects, {"effects"});
+  const auto outside = effects_from(asked.outside, {"hidden/outside"});
   for (const auto &id : asked.options.only)
     if (std::none_of(set.cases.begin(), set.cases.end(),
                      [&](const diagnose::HiddenCase &c) { return c.id == id; }))
@@ -198,6 +199,10 @@ void add_trial(CLI::App &app) {
   command->add_option("SET", asked->set, "hidden set (TOML)")->required();
   command->add_option("--out", asked->out,
                       "directory of the results (default: bondlab-results/trial)");
+  command->add_option("--effects", asked->effects,
+                      "folder of the catalogue, may be given again (default: inputs/effects)");
+  command->add_option("--outside", asked->outside,
+                      "folder of what the catalogue lacks (default: inputs/hidden/outside)");
   command->add_option("--case", asked->options.only, "id of a case; may be given again")
       ->delimiter(',');
   command->add_option("--jobs", asked->jobs, "forward runs at a time")->check(CLI::PositiveNumber);

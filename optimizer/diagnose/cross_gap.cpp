@@ -8,6 +8,7 @@ namespace bondlab::diagnose {
 namespace {
 
 constexpr int placebo_draws = 50;
+constexpr double most_unknown = 3;  // variance of a prediction over that of the rows
 
 // Whitened residual of the rows held out, after a linear fit of `columns` to the others.
 double left_of_placebo(const Linearisation &model, std::size_t effect, const Eigen::VectorXd &on,
@@ -53,9 +54,11 @@ CrossGap cross_gap(Prober &prober, const Evidence &evidence,
       columns.col(there.jacobian.cols() + static_cast<Eigen::Index>(k)) =
           there.traces.col(static_cast<Eigen::Index>(effects[k]))
               .segment(series.first, series.count);
+    const double unknown = (columns * with.covariance).cwiseProduct(columns).sum();
+    if (unknown > most_unknown * series.count) continue;
     out.before += left(alone);
     out.after += left(with);
-    out.floor += series.count + (columns * with.covariance).cwiseProduct(columns).sum();
+    out.floor += series.count + unknown;
     double placebo = 0;
     for (int draw = 0; draw < placebo_draws && !effects.empty(); ++draw)
       placebo += left_of_placebo(model, effects.front(), on, random) / placebo_draws;

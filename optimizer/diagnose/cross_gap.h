@@ -7,7 +7,8 @@
 //   first effect's trace with the signs of its rows drawn at random, fitted in the same way, to
 //   first order; the mean over 50 draws.
 // Source: leave-one-group-out cross validation, Stone 1974.
-// Units: chi squared over all rows. Failure: a series whose fits give no figures is left out.
+// Units: chi squared over all rows. Failure: a series whose fits give no figures is left out,
+//   and one that the others cannot predict, because it alone shows the effect.
 #pragma once
 
 #include <cstdint>

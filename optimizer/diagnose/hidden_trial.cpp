@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <tuple>
 
 #include "diagnose/measuring_error.h"
 #include "diagnose/score.h"
@@ -16,6 +18,8 @@ namespace bondlab::diagnose {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr int sizing_rounds = 4;
 
 // Data of a plan with nothing measured yet: what noise units are counted in.
 std::vector<MeasuredSeries> plan_of(const std::vector<ProbedSeries> &probed, int replicates) {
@@ -118,14 +122,16 @@ class Sizer {
   Projection fitted_;
 };
 
-Judgement judge(const std::vector<std::string> &hidden, const std::vector<std::string> &named,
-                bool outside) {
-  if (outside) return Judgement::outside;
-  if (named.empty()) return Judgement::nothing;
-  const std::set<std::string> a(hidden.begin(), hidden.end()), b(named.begin(), named.end());
-  if (a == b) return Judgement::right;
-  const bool all = std::includes(b.begin(), b.end(), a.begin(), a.end());
-  return all && !a.empty() ? Judgement::in_set : Judgement::wrong;
+// Empty, or the switch-on size that puts `size` between the two that are run.
+std::map<std::size_t, double> beyond_sizes_run(StudyModel &model, const EffectDefinition &effect,
+                                               double size) {
+  for (std::size_t k = 0; k < model.effects().size(); ++k) {
+    const double switch_on = model.catalogue()[k].switch_on;
+    if (model.effects()[k].name != effect.name || model.emulated().covers(k, size / switch_on))
+      continue;
+    return {{k, std::copysign(size / 1.5, switch_on)}};
+  }
+  return {};
 }
 
 Study with_data(const Study &study, const fs::path &folder) {
@@ -172,6 +178,16 @@ std::string to_string(Judgement judgement) {
   return "";
 }
 
+Judgement judge(const std::vector<std::string> &hidden, const std::vector<std::string> &named,
+                bool outside) {
+  if (outside) return Judgement::outside;
+  if (named.empty()) return Judgement::nothing;
+  const std::set<std::string> a(hidden.begin(), hidden.end()), b(named.begin(), named.end());
+  if (a == b) return Judgement::right;
+  const bool all = std::includes(b.begin(), b.end(), a.begin(), a.end());
+  return all && !a.empty() ? Judgement::in_set : Judgement::wrong;
+}
+
 std::vector<TrialCase> run_trial(const HiddenSet &set, const Study &laboratory,
                                  const std::vector<EffectDefinition> &catalogue,
                                  const std::vector<EffectDefinition> &outside,
@@ -215,6 +231,30 @@ std::vector<TrialCase> run_trial(const HiddenSet &set, const Study &laboratory,
   std::map<std::size_t, double> scales;
   for (std::size_t k = 0; k < model.catalogue().size(); ++k)
     scales[k] = model.catalogue()[k].switch_on;
+  // Sizes of all cases, before the outsiders are shut out. What the sizes run do not reach is run.
+  std::map<std::string, std::pair<std::vector<double>, std::vector<double>>> planned;
+  for (const auto &c : set.cases) {
+    if (!wanted(c)) continue;
+    auto &[sizes, units] = planned[c.id];
+    for (const auto &name : c.effects) {
+      const auto &effect = known(all, name, c);
+      const double bound = admissible_size(laboratory, effect);
+      for (int round = 0;; ++round) {
+        Sizer sizer(model, set.replicates);
+        const double size = sizer.size_of(effect, c.units, bound);
+        const auto further = round < sizing_rounds ? beyond_sizes_run(model, effect, size)
+                                                   : std::map<std::size_t, double>();
+        if (!further.empty()) {
+          model.rescale(further);
+          continue;
+        }
+        sizes.push_back(size);
+        units.push_back(sizer.units(effect, size));
+        break;
+      }
+    }
+    model.rescale(scales);
+  }
   model.forbid([&](const std::string &name) {
     return std::any_of(outside.begin(), outside.end(),
                        [&](const EffectDefinition &e) { return e.name == name; });
@@ -223,13 +263,7 @@ std::vector<TrialCase> run_trial(const HiddenSet &set, const Study &laboratory,
   const auto make = [&](const HiddenCase &c) {
     TrialCase trial;
     trial.hidden = c;
-    Sizer sizer(model, set.replicates);
-    for (const auto &name : c.effects) {
-      const auto &effect = known(all, name, c);
-      const auto bound = admissible_size(laboratory, effect);
-      trial.sizes.push_back(sizer.size_of(effect, c.units, bound));
-      trial.units.push_back(sizer.units(effect, trial.sizes.back()));
-    }
+    std::tie(trial.sizes, trial.units) = planned.at(c.id);
     hide(c, trial.sizes);
     const Study study = with_data(laboratory, folder_of(c));
     const auto result =

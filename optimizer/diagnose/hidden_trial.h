@@ -30,6 +30,10 @@ namespace bondlab::diagnose {
 enum class Judgement { right, in_set, wrong, outside, nothing };
 std::string to_string(Judgement judgement);
 
+// `outside`: the diagnosis said "not in the catalogue".
+Judgement judge(const std::vector<std::string> &hidden, const std::vector<std::string> &named,
+                bool outside);
+
 struct TrialCase {
   HiddenCase hidden;
   std::vector<double> sizes;  // SI

@@ -22,9 +22,7 @@ constexpr const char *kReplay = "replay.sh";
 const std::map<std::string, std::string> &mpi_environment() {
   static const std::map<std::string, std::string> variables{{"OMPI_ALLOW_RUN_AS_ROOT", "1"},
                                                             {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
-                                                            {"OMP_NUM_THREADS", "1"},
-                                                            // alone: no daemon beside the run
-                                                            {"OMPI_MCA_ess_singleton_isolated", "1"}};
+                                                            {"OMP_NUM_THREADS", "1"}};
   return variables;
 }
 
@@ -35,6 +33,16 @@ std::map<std::string, std::string> run_environment(const RunPlan &plan, const Ru
   variables["BONDLAB_RUN_KEY"] = key.full;
   variables["BONDLAB_SEED"] = std::to_string(plan.seed());
   return variables;
+}
+
+bool runs_alone(const Engine &engine, const RunPlan &plan) {
+  return plan.ranks == 1 && engine.alone_without_mpirun;
+}
+
+// Open MPI without mpirun: no daemon beside the run, and its session folder in the run's own, since
+// two runs that share one remove it under each other's feet.
+std::map<std::string, std::string> alone_environment(const std::string &folder) {
+  return {{"OMPI_MCA_ess_singleton_isolated", "1"}, {"OMPI_MCA_orte_tmpdir_base", folder}};
 }
 
 }  // namespace
@@ -82,7 +90,7 @@ std::vector<std::string> engine_command(const Engine &engine, const RunPlan &pla
   // --bind-to none: several mpirun at a time would all bind to the first cores. --oversubscribe:
   // the slots are counted by us.
   std::vector<std::string> command;
-  if (plan.ranks > 1 || !engine.alone_without_mpirun)
+  if (!runs_alone(engine, plan))
     command = {engine.mpirun.string(), "-np", std::to_string(plan.ranks), "--oversubscribe",
                "--bind-to", "none"};
   command.insert(command.end(),
@@ -102,6 +110,9 @@ Launch make_launch(const Engine &engine, const RunPlan &plan, const RunKey &key,
   launch.command = engine_command(engine, plan);
   launch.directory = folder;
   launch.environment = run_environment(plan, key, id);
+  if (runs_alone(engine, plan))
+    for (const auto &[name, value] : alone_environment(fs::absolute(folder).string()))
+      launch.environment[name] = value;
   launch.screen = folder / kScreenName;
   launch.wall_limit = plan.wall_limit;
   launch.watched = {folder / kLogName, folder / kScreenName, folder / plan.curve};
@@ -152,6 +163,9 @@ void write_replay(const fs::path &folder, const Engine &engine, const RunPlan &p
       "folder=${1:-$(dirname \"$0\")/replay}\nmkdir -p \"$folder\"\ncd \"$folder\"\n";
   for (const auto &[name, value] : run_environment(plan, key, id))
     script += "export " + name + "=" + value + "\n";
+  if (runs_alone(engine, plan))
+    for (const auto &[name, value] : alone_environment("$PWD"))
+      script += "export " + name + "=\"" + value + "\"\n";
   script += "exec";
   for (const std::string &word : engine_command(engine, plan))
     script += (word == "-var" || word == "-in" ? " \\\n  " : " ") + quoted(word);
