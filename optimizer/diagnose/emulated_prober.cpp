@@ -32,6 +32,7 @@ double variance_of(const Eigen::VectorXd &values) {
 }  // namespace
 
 Eigen::MatrixXd EmulatedProber::Way::at(double x) const {
+  if (x < 0 && below.size() > 0) return below * x;
   const double inside = std::clamp(x, low, high), beyond = x - inside;
   return linear * x + squared * (inside * inside + 2 * inside * beyond);
 }
@@ -98,6 +99,19 @@ EmulatedProber::Way EmulatedProber::way(const std::vector<double> &knots,
   return out;
 }
 
+EmulatedProber::Way EmulatedProber::effect_way(
+    const std::vector<double> &knots, const std::vector<Eigen::MatrixXd> &changes) const {
+  if (knots.front() > 0) return way(knots, changes);
+  const Way lower = way({knots.front()}, {changes.front()});
+  if (knots.size() == 1) return lower;
+  Way out = way({knots.begin() + 1, knots.end()}, {changes.begin() + 1, changes.end()});
+  out.below = lower.linear;
+  out.low = lower.low;
+  out.unknown = out.unknown || lower.unknown;
+  out.dead = out.dead || lower.dead;
+  return out;
+}
+
 std::vector<double> EmulatedProber::knots_of(const EffectEntry &entry) const {
   const double largest = entry.largest / entry.switch_on, lowest = entry.lowest / entry.switch_on;
   std::vector<double> knots;
@@ -149,7 +163,7 @@ EmulatedProber::EmulatedProber(ForwardProber &engine, const std::vector<EffectEn
     parameters_.push_back(way(parameter_knots_[i], changes(parameter_knots_[i].size())));
   for (std::size_t k = 0; k < engine.effects() && with_effects; ++k) {
     const auto knots = knots_of(catalogue[k]);
-    effects_.push_back(way(knots, changes(knots.size())));
+    effects_.push_back(effect_way(knots, changes(knots.size())));
   }
 }
 
@@ -253,7 +267,7 @@ void EmulatedProber::renew(std::size_t effect, const EffectEntry &entry) {
   const Eigen::MatrixXd own = rows_.topRows(static_cast<Eigen::Index>(packings_.size()));
   std::vector<Eigen::MatrixXd> changes;
   for (const auto &point : points) changes.push_back(engine_.by_packing(point, packings_) - own);
-  effects_[effect] = way(knots, changes);
+  effects_[effect] = effect_way(knots, changes);
 }
 
 bool EmulatedProber::covers(std::size_t effect, double amplitude) const {

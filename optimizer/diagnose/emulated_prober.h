@@ -10,7 +10,7 @@
 //   their number: it is zero at the centre and grows with what is asked.
 //   x of a parameter is the logarithm of its physical value over the centre's (the share of its range
 //   where it may be zero or negative), because stiffness and strength scale as powers and z bends
-//   near its bounds.
+//   near its bounds. An effect that can have either sign has a slope of its own below zero.
 // Why: a brittle specimen breaks along another path after any change, so that one run's difference
 //   is noise; here noise is averaged, and what is left of it is known to the scores. A probe costs
 //   no run, so that one design serves many data sets and thousands of resamples.
@@ -66,11 +66,14 @@ class EmulatedProber : public Prober {
   struct Way {                        // one coordinate
     double low = 0, high = 0;         // outermost knots
     Eigen::MatrixXd linear, squared;  // packings x rows
+    Eigen::MatrixXd below;            // slope at negative x, where it is another one; else empty
     Eigen::Array<bool, Eigen::Dynamic, 1> unknown;
     bool dead = false;
     Eigen::MatrixXd at(double x) const;
   };
   Way way(const std::vector<double> &knots, const std::vector<Eigen::MatrixXd> &changes) const;
+  Way effect_way(const std::vector<double> &knots,
+                 const std::vector<Eigen::MatrixXd> &changes) const;
   Eigen::MatrixXd change(const ModelPoint &point) const;  // packings x rows
   std::vector<double> knots_of(const EffectEntry &entry) const;
 

@@ -47,11 +47,11 @@ TEST_F(Emulated, CentreIsTheMeanOverAllItsPackings) {
 TEST_F(Emulated, EffectIsExactAtTheSizesThatWereRun) {
   EmulatedProber emulated(engine, catalogue, engine.start(), plan);
   const auto base = emulated.probe({engine.start()}).front();
-  for (const double amplitude : {1.0, 2.0}) {
+  for (const double amplitude : {-1.0, 1.0, 2.0}) {
     const double added = switch_on("bond_gap") * amplitude;
     const auto rows = emulated.probe({with(engine.start(), "bond_gap", amplitude)}).front();
     const double now = (gap * (1 + added) + gap_scale) / (gap + gap_scale);
-    EXPECT_NEAR(rows(ucs_peak) - base(ucs_peak), std::log(now), 2e-3) << amplitude;
+    EXPECT_NEAR(rows(ucs_peak) - base(ucs_peak), std::log(now), 1e-9) << amplitude;
   }
 }
 
@@ -105,8 +105,7 @@ TEST_F(Emulated, RenewedEffectIsTakenAtItsNewSize) {
   const auto base = emulated.probe({engine.start()}).front();
   const auto rows = emulated.probe({with(engine.start(), "bond_gap", 1)}).front();
   const double now = (gap * (1 + grown) + gap_scale) / (gap + gap_scale);
-  // Three sizes, two coefficients: a parabola misses a logarithm of up to 0.3 by a hundredth of it.
-  EXPECT_NEAR(rows(ucs_peak) - base(ucs_peak), std::log(now), 4e-3);
+  EXPECT_NEAR(rows(ucs_peak) - base(ucs_peak), std::log(now), 1e-9);
   EXPECT_GT(rows(ucs_peak) - base(ucs_peak), 0.1);
 }
 

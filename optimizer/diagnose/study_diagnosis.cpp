@@ -153,6 +153,31 @@ void measure_gaps(Prober &model, const Evidence &evidence, const std::vector<Eig
   out.gap.placebo_after = placebo_gap(linear, d.effects.front().effect, training, judged, seed);
 }
 
+// A name that does not help a series it was not fitted to is not given alone: every effect that was
+// tried and is admissible stands beside it.
+void demote(StudyDiagnosis &out) {
+  auto &d = out.diagnosis;
+  if (d.verdict != Verdict::one || out.holdout.empty()) return;
+  if (!(out.gap.holdout_after >= out.gap.holdout_before)) return;
+  out.advice.push_back(fmt::format(
+      "'{}' was best by a margin of {:.1f} in chi squared, but the series held out is no better "
+      "with it ({:.2f} before, {:.2f} after): it is not given alone",
+      out.catalogue[d.effects.front().effect].name, d.margin, out.gap.holdout_before,
+      out.gap.holdout_after));
+  for (const auto &tried : d.tried) {
+    if (tried.effects.size() != 1 || tried.effects.front() == d.effects.front().effect) continue;
+    NamedEffect other;
+    other.effect = tried.effects.front();
+    other.size = tried.amplitudes.front() * out.catalogue[other.effect].switch_on;
+    other.low = other.high = nan_value;
+    other.margin = tried.behind;
+    d.effects.push_back(other);
+  }
+  d.verdict = d.effects.size() > 1 ? Verdict::set : Verdict::not_in_catalogue;
+  if (d.verdict == Verdict::not_in_catalogue) d.effects.clear();
+  d.margin = 0;
+}
+
 void advise_on(StudyDiagnosis &out) {
   const auto &d = out.diagnosis;
   if (d.verdict == Verdict::set)
@@ -348,6 +373,7 @@ StudyDiagnosis diagnose_measured(StudyModel &model, std::vector<MeasuredSeries> 
         if (probed[i].name == s.probed.name)
           out.shown.push_back({s.probed.name, s.curves, before[i].curve, after[i].curve});
   }
+  demote(out);
   advise_on(out);
   out.runs = model.runs() - runs_before;
   return out;
