@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "app/commands.h"
+#include "app/progress_line.h"
 #include "report/diagnosis_files.h"
 #include "report/trial_table.h"
 #include "diagnose/hidden_trial.h"
@@ -83,7 +84,9 @@ void run_diagnose(const Diagnosing &asked) {
   const auto effects = effects_from(asked.effects, {"effects"});
   const fs::path out = results_directory(asked.out, study.name);
   catch_interrupts();
+  ProgressLine line;
   diagnose::StudySinks sinks;
+  sinks.progress = [&](const BatchProgress &progress) { line.show(progress); };
   sinks.say = [](const std::string &line) { fmt::print("{}\n", line); };
   const auto result = diagnose::diagnose_study(study, effects, engine_on(study, out, asked.jobs),
                                                asked.options, sinks);
@@ -103,10 +106,11 @@ void run_hide(Hiding asked) {
   check_response_functions(study);
   const auto effects = effects_from(asked.effects, {"effects", "hidden/outside"});
   catch_interrupts();
+  ProgressLine line;
   // Not in the data folder: what was run would tell what is hidden.
   const fs::path runs = fs::path(asked.out).lexically_normal().string() + ".runs";
   diagnose::hide_effect(study, effects, engine_on(study, runs, asked.jobs), asked.options,
-                        asked.out);
+                        asked.out, [&](const BatchProgress &progress) { line.show(progress); });
   fmt::print("data: {}\ntruth, not for diagnose: {}\n", asked.out,
              (fs::path(asked.out) / "sealed_truth.json").string());
 }
@@ -132,6 +136,8 @@ void run_trial_command(const Trying &asked) {
   diagnose::TrialOptions options = asked.options;
   options.out = results_directory(asked.out, "trial");
   options.diagnosis.holdout = "none";
+  ProgressLine line;
+  options.progress = [&](const BatchProgress &progress) { line.show(progress); };
   std::vector<diagnose::TrialCase> done;
   const auto say = [](const std::string &line) {
     fmt::print("{}\n", line);

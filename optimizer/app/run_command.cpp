@@ -12,8 +12,6 @@
 // Failure: exit status 2 with
 //   cause, folder and last log lines when a run fails.
 #include <fmt/core.h>
-#include <unistd.h>
-
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -21,6 +19,7 @@
 #include <memory>
 
 #include "app/commands.h"
+#include "app/progress_line.h"
 #include "base/units.h"
 #include "forward/engine_forward_model.h"
 #include "forward/interrupt.h"
@@ -125,28 +124,6 @@ void print_responses(const Study &study, const TestEntry &test, const ForwardOut
   }
   fmt::print("  {}\n  replay: {}\n", outcome.run_directory, outcome.replay_command);
 }
-
-// One line that is written over; nothing where standard error is a file.
-class ProgressLine {
- public:
-  ~ProgressLine() {
-    if (shown_) fmt::print(stderr, "\r\033[K");
-  }
-  void show(const BatchProgress &progress) {
-    if (!terminal_ || progress.total == progress.from_store) return;
-    std::string line =
-        fmt::format("{} of {} runs done, {} running, {:.0f} s", progress.done + progress.failed,
-                    progress.total, progress.running, progress.elapsed);
-    if (progress.left >= 0) line += fmt::format(", about {:.0f} s left", std::ceil(progress.left));
-    fmt::print(stderr, "\r\033[K{}", line);
-    std::fflush(stderr);
-    shown_ = true;
-  }
-
- private:
-  const bool terminal_ = isatty(STDERR_FILENO) == 1;
-  bool shown_ = false;
-};
 
 void run(const Options &options) {
   const Study study = read_study(options.study);

@@ -211,7 +211,7 @@ std::vector<TrialCase> run_trial(const HiddenSet &set, const Study &laboratory,
     how.replicates = set.replicates;
     if (!fs::exists(folder_of(c) / "manifest.toml"))
       hide_effect(laboratory, all, engine(options.out / "data" / (c.id + ".runs")), how,
-                  folder_of(c));
+                  folder_of(c), options.progress);
   };
 
   // The plan's rows come from data of the plan: those with nothing in them.
@@ -221,7 +221,8 @@ std::vector<TrialCase> run_trial(const HiddenSet &set, const Study &laboratory,
   EmulatorPlan plan;
   plan.differences = options.diagnosis.packings;
   plan.centre = std::max(options.diagnosis.scatter, options.diagnosis.packings);
-  StudyModel model(laboratory, all, engine(options.out / "model"), plan);
+  StudyModel model(laboratory, all, engine(options.out / "model"), plan,
+                   options.progress);
   say(fmt::format("model: {} packings, {} for differences, {} effects", plan.centre,
                   plan.differences, model.effects().size()));
   model.start(probed(measured_series(with_data(laboratory, folder_of(blank)), true)));

@@ -58,6 +58,7 @@ struct TrialOptions {
   std::vector<std::string> only;  // ids; empty: all
   bool confirm = false;           // run the engine at the fits before and after
   StudyDiagnosisOptions diagnosis;
+  std::function<void(const BatchProgress &)> progress;
 };
 
 // The engine of a study with results in a folder below out.

@@ -329,7 +329,11 @@ StudyDiagnosis diagnose_measured(StudyModel &model, std::vector<MeasuredSeries> 
     const Projection fitted(d.model.jacobian);
     const Whitening whitening(evidence, prober.uncertainty(d.before.point));
     const Omnibus omnibus(evidence, whitening, names, d.model.jacobian);
-    const ScoreTable scores(fitted, d.model, out.catalogue);
+    Linearisation allowed = d.model;
+    for (std::size_t k = 0; k < out.catalogue.size(); ++k)
+      if (out.catalogue[k].lowest == 0 && out.catalogue[k].largest == 0)
+        allowed.traces.col(static_cast<Eigen::Index>(k)).setZero();
+    const ScoreTable scores(fitted, allowed, out.catalogue);
     const Eigen::VectorXd residual = fitted.off(d.model.residual);
     out.others = {name_by_largest_residual(omnibus, Omnibus::Prepared(omnibus, fitted), scores,
                                            residual, omnibus_alarm),

@@ -135,6 +135,11 @@ std::string diagnosis_json(const StudyDiagnosis &d) {
                 {"holdout_after", number(d.gap.holdout_after)},
                 {"placebo_after", number(d.gap.placebo_after)},
                 {"noise_floor", number(d.gap.noise_floor)}};
+  if (d.cross.before > 0)
+    out["held_out_in_turn"] = {{"before", number(d.cross.before)},
+                               {"after", number(d.cross.after)},
+                               {"placebo", number(d.cross.placebo)},
+                               {"floor", number(d.cross.floor)}};
   return out.dump(2) + "\n";
 }
 
@@ -158,8 +163,12 @@ std::string diagnosis_text(const Study &study, const StudyDiagnosis &d) {
   out += fmt::format("  {:<34} {:>7}  {:>7}  floor {}, placebo {}\n", "all that was fitted",
                      shown(d.gap.before), shown(d.gap.after), shown(d.gap.noise_floor),
                      shown(d.gap.placebo_after));
-  out += fmt::format("  gain in chi squared: {} predicted, {} realised\n", shown(g.predicted_gain),
-                     shown(g.realised_gain));
+  out += fmt::format("  gain in chi squared: {} predicted, {} realised, {} by the engine itself\n",
+                     shown(g.predicted_gain), shown(g.realised_gain), shown(d.confirmed_gain));
+  if (d.cross.before > d.cross.floor && d.cross.floor > 0)
+    out += fmt::format("  every series held out in turn: {:.0f} % of the way to the noise floor "
+                       "closed, by a placebo {:.0f} %\n",
+                       100 * d.cross.closed(), 100 * d.cross.closed_by_placebo());
   out += "\nparameters                      before                     after\n";
   for (std::size_t i = 0; i < study.parameters.size(); ++i) {
     const auto &p = study.parameters[i];
