@@ -112,7 +112,9 @@ template <bool advance, bool options>
         half_volume * (opening + tau_now * tau_now * per_shear) +
         half_length * (in.bend2 * (r.keep_b * r.keep_b) * per_modulus * at.per_bend +
                        in.twist2 * (r.keep_t * r.keep_t) * per_shear * at.per_twist);
-    r.lost = in.alive * softening_loss(in.worst, r.worst, in.failure, scaled);
+    // With the last of it goes what the bond carried in compression.
+    const double closed = s > 0.0 ? 0.0 : half_volume * s * s * per_normal;
+    r.lost = in.alive * softening_loss(in.worst, r.worst, in.failure, scaled, closed);
   }
   return r;
 }

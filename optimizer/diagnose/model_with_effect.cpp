@@ -93,6 +93,19 @@ std::vector<Block> blocks_of(const std::vector<std::string> &lines) {
   return blocks;
 }
 
+// Cuts what two long lines have in common at their front, but for the key and a little before they
+// part: a table of a dozen variables in which one is new.
+void cut_common_front(std::string &a, std::string &b) {
+  constexpr std::size_t shown = 30, worth = 90;
+  std::size_t same = 0;
+  while (same < a.size() && same < b.size() && a[same] == b[same]) ++same;
+  const auto brace = a.find('{');
+  if (same < worth || brace == std::string::npos || brace + shown > same) return;
+  const auto from = a.rfind(", ", same - shown);
+  if (from == std::string::npos || from <= brace) return;
+  for (auto *line : {&a, &b}) line->replace(brace + 1, from - brace, " ...");
+}
+
 }  // namespace
 
 std::string study_with_effects(const Study &study, const std::vector<SizedEffect> &effects,
@@ -151,7 +164,7 @@ std::string study_with_effects(const Study &study, const std::vector<SizedEffect
 }
 
 std::string readable_diff(const std::string &before, const std::string &after) {
-  const auto a = lines_of(before), b = lines_of(after);
+  auto a = lines_of(before), b = lines_of(after);
   std::vector<std::vector<int>> common(a.size() + 1, std::vector<int>(b.size() + 1, 0));
   for (std::size_t i = a.size(); i-- > 0;)
     for (std::size_t j = b.size(); j-- > 0;)
@@ -160,6 +173,9 @@ std::string readable_diff(const std::string &before, const std::string &after) {
   std::string out;
   std::size_t i = 0, j = 0;
   while (i < a.size() || j < b.size()) {
+    const bool replaced = i < a.size() && j < b.size() && a[i] != b[j] &&
+                          common[i + 1][j + 1] == common[i][j];
+    if (replaced) cut_common_front(a[i], b[j]);
     if (i < a.size() && j < b.size() && a[i] == b[j]) {
       ++i, ++j;
     } else if (i < a.size() && (j == b.size() || common[i + 1][j] >= common[i][j + 1])) {

@@ -30,7 +30,8 @@ struct SizedEffect {
 std::string study_with_effects(const Study &study, const std::vector<SizedEffect> &effects,
                                const std::vector<double> &parameters);
 
-// Lines removed (-) and added (+) with the line numbers of the first.
+// Lines removed (-) and added (+) with the line numbers of the first. Of a long table only the
+// entries about the change are shown.
 std::string readable_diff(const std::string &before, const std::string &after);
 
 }  // namespace bondlab::diagnose

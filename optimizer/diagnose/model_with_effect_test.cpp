@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/model_with_effect.h"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -112,6 +113,15 @@ TEST(ReadableDiff, ListsExactlyTheChangedLines) {
   EXPECT_EQ(readable_diff("a\nb\nc\n", "a\nb\nc\n"), "");
   EXPECT_EQ(readable_diff("a\nb\nc\n", "a\nB\nc\nd\n"), "    2 - b\n      + B\n      + d\n");
   EXPECT_EQ(readable_diff("a\nb\n", "b\n"), "    1 - a\n");
+}
+
+TEST(ReadableDiff, ShowsOfALongTableOnlyWhatIsAboutTheChange) {
+  std::string front = "variables = { first = 1";
+  for (int k = 0; k < 12; ++k) front += fmt::format(", number_{} = {}", k, k);
+  const auto diff = readable_diff(front + " }\n", front + ", stiffness = 7 }\n");
+  EXPECT_EQ(diff,
+            "    1 - variables = { ... number_10 = 10, number_11 = 11 }\n"
+            "      + variables = { ... number_10 = 10, number_11 = 11, stiffness = 7 }\n");
 }
 
 }  // namespace
