@@ -398,6 +398,11 @@ StudyDiagnosis diagnose_study(const Study &study, const std::vector<EffectDefini
   plan.centre = std::max(options.scatter, options.packings);
   StudyModel model(study, effects, factory, plan, sinks.progress);
   model.start(probed(series));
+  std::vector<std::string> lost = not_modelled(series, model.engine().series());
+  for (auto &one : lost) {
+    one = "not compared: " + one + " (some packing of the simulation gives no figure, or all the same)";
+    say(one);
+  }
   settle(model, series, holdout, say);
   model.add_effects();
   {
@@ -413,6 +418,7 @@ StudyDiagnosis diagnose_study(const Study &study, const std::vector<EffectDefini
   const int made = model.runs();
   StudyDiagnosis out = diagnose_measured(model, series, options, true, sinks);
   out.runs += made;
+  out.advice.insert(out.advice.begin(), lost.begin(), lost.end());
   return out;
 }
 

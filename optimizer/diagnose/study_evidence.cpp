@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "forward/run_plan.h"
@@ -167,6 +168,18 @@ std::vector<Eigen::Index> keep_modelled(std::vector<MeasuredSeries> &series,
   if (series.empty())
     throw UserError("no run of the study gave a figure that can be compared with what was measured");
   return used;
+}
+
+std::vector<std::string> not_modelled(const std::vector<MeasuredSeries> &series,
+                                      const std::vector<ProbedSeries> &model) {
+  std::set<std::pair<std::string, std::string>> known;
+  for (const auto &s : model)
+    for (const auto &q : s.quantities) known.insert({s.name, q.name});
+  std::vector<std::string> out;
+  for (const auto &s : series)
+    for (const auto &q : s.probed.quantities)
+      if (known.count({s.probed.name, q.name}) == 0) out.push_back(s.probed.name + ", " + q.name);
+  return out;
 }
 
 std::vector<ProbedSeries> that_scatter(std::vector<ProbedSeries> series,

@@ -38,6 +38,10 @@ std::vector<MeasuredSeries> measured_series(const Study &study, bool whole = fal
 std::vector<Eigen::Index> keep_modelled(std::vector<MeasuredSeries> &series,
                                         const std::vector<ProbedSeries> &model);
 
+// "SERIES, QUANTITY" of what was measured and `model` lacks.
+std::vector<std::string> not_modelled(const std::vector<MeasuredSeries> &series,
+                                      const std::vector<ProbedSeries> &model);
+
 // Leaves out quantities whose simulated rows (packings x rows) are not finite or do not scatter.
 std::vector<ProbedSeries> that_scatter(std::vector<ProbedSeries> series,
                                        const Eigen::MatrixXd &by_packing);

@@ -91,5 +91,18 @@ TEST_F(NullOfAStudy, ModelsDoubtIsInTheDrawsAndInTheirWhitening) {
   EXPECT_NEAR(sum, 1, 0.1);
 }
 
+TEST(MeasuredRows, ThoseThatTheModelLacksAreLeftOutAndToldByName) {
+  MeasuredSeries series;
+  series.probed = {"ucs", "ucs", {{CurvePart::slope, "E"}, {CurvePart::peak, "UCS"}}};
+  series.replicates = Eigen::MatrixXd::Random(3, 2);
+  const std::vector<ProbedSeries> model = {{"ucs", "ucs", {{CurvePart::peak, "UCS"}}}};
+  EXPECT_EQ(not_modelled({series}, model), std::vector<std::string>{"ucs, E"});
+  const Eigen::VectorXd kept = series.replicates.col(1);
+  std::vector<MeasuredSeries> all = {series};
+  EXPECT_EQ(keep_modelled(all, model), std::vector<Eigen::Index>{0});
+  EXPECT_EQ(all.front().replicates.col(0), kept);
+  EXPECT_TRUE(not_modelled(all, model).empty());
+}
+
 }  // namespace
 }  // namespace bondlab::diagnose
