@@ -40,9 +40,13 @@ bool runs_alone(const Engine &engine, const RunPlan &plan) {
 }
 
 // Open MPI without mpirun: no daemon beside the run, and its session folder in the run's own, since
-// two runs that share one remove it under each other's feet.
+// two runs that share one remove it under each other's feet. A rank alone talks to nobody: looking
+// for network devices would be half of what starting costs (0.50 s instead of 0.20 s, measured).
 std::map<std::string, std::string> alone_environment(const std::string &folder) {
-  return {{"OMPI_MCA_ess_singleton_isolated", "1"}, {"OMPI_MCA_orte_tmpdir_base", folder}};
+  return {{"OMPI_MCA_ess_singleton_isolated", "1"},
+          {"OMPI_MCA_orte_tmpdir_base", folder},
+          {"OMPI_MCA_pml", "ob1"},
+          {"OMPI_MCA_btl", "self"}};
 }
 
 }  // namespace
