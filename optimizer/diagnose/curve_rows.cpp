@@ -14,7 +14,8 @@ namespace {
 using Column = std::vector<double>;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double least_strain = 1e-9;
-constexpr double least_fall = 0.01;  // of the way to the peak: steeper is all the same
+constexpr double largest_toe = 5;             // of the strain from 0.3 to 0.6 of the peak
+constexpr double least_fall = 0.01;           // of the way to the peak: steeper is all the same
 constexpr double residual_from = 0.75;        // of the travel
 constexpr double least_programme_load = 0.1;  // of the peak: below, a test is set up
 
@@ -36,20 +37,24 @@ struct Landmarks {
     return at_share(load, peak, channel, to) - at_share(load, peak, channel, from);
   }
   double log_compliance(const Column &channel, double from, double to) const {
-    return std::log(std::max(least_strain, between(channel, from, to)) / ((to - from) * load[peak]));
+    return std::log(std::max(least_strain, between(channel, from, to)) /
+                    ((to - from) * load[peak]));
   }
+  // None of a channel that hardly moves, or goes back, while the load climbs: its share is
+  // anything.
   double toe(const Column &channel, double share) const {
-    return between(channel, 0, share) / std::max(least_strain, between(channel, 0.3, 0.6));
+    const double value = between(channel, 0, share) / between(channel, 0.3, 0.6);
+    return std::abs(value) < largest_toe && between(channel, 0.3, 0.6) > least_strain ? value
+                                                                                      : none;
   }
-  // Way from the peak until the load has fallen to a share, over the way to the peak, its logarithm:
-  // falls of specimens of one rock differ by factors. A curve that ends before has none.
+  // Way from the peak until the load has fallen to a share, over the way to the peak, its
+  // logarithm: falls of specimens of one rock differ by factors. A curve that ends before has none.
   double fall(const Column &channel, double share) const {
     std::size_t i = peak;
     while (i + 1 < load.size() && load[i] > share * load[peak]) ++i;
     if (load[i] > share * load[peak]) return none;
     const double way = channel[i] - channel[peak];
-    return std::log(least_fall +
-                    way / std::max(least_strain, channel[peak] - channel.front()));
+    return std::log(least_fall + way / std::max(least_strain, channel[peak] - channel.front()));
   }
 };
 
@@ -70,8 +75,7 @@ Column load_of(const Curve &curve) {
 // The way of the machine's drive, or that of the platens.
 const Column &travel_of(const Curve &curve, const std::string &quantity) {
   const bool stress = curve.has("axial_stress");
-  if (quantity.rfind("machine", 0) == 0)
-    return curve.column(stress ? "strain_machine" : "machine");
+  if (quantity.rfind("machine", 0) == 0) return curve.column(stress ? "strain_machine" : "machine");
   return curve.column(stress && curve.has("strain_platen") ? "strain_platen" : "displacement");
 }
 
@@ -97,8 +101,8 @@ double ratio_while_loading(const Landmarks &at, const Column &a, const Column &b
   return bottom > 0 ? top / bottom : none;
 }
 
-// What is carried on average over the last quarter of the travel, over the peak; a test that does not
-// go on to twice the way to the peak has none.
+// What is carried on average over the last quarter of the travel, over the peak; a test that does
+// not go on to twice the way to the peak has none.
 double residual(const Landmarks &at, const Column &travel) {
   const double end = travel.back() - travel.front();
   if (!(end >= 2 * (travel[at.peak] - travel.front()))) return none;
@@ -111,7 +115,8 @@ double landmark(const Landmarks &at, const Curve &curve, const std::string &name
   const auto gauge = [&]() -> const Column & { return gauge_of(curve); };
   const auto travel = [&]() -> const Column & { return travel_of(curve, name); };
   const auto is = [&](const char *travelled) {
-    return name == std::string("platen ") + travelled || name == std::string("machine ") + travelled;
+    return name == std::string("platen ") + travelled ||
+           name == std::string("machine ") + travelled;
   };
   const auto poisson = [&](double from, double to) {
     return at.between(curve.column("strain_lateral"), from, to) /
@@ -159,15 +164,16 @@ std::vector<Stretch> programme_of(const Curve &curve, const Column &load, std::s
 double strain_at(const Column &load, const Column &strain, double value, std::size_t last) {
   std::size_t i = 1;
   while (i < last && load[i] < value) ++i;
-  const double t =
-      load[i] > load[i - 1] ? std::clamp((value - load[i - 1]) / (load[i] - load[i - 1]), 0.0, 1.0) : 1;
+  const double t = load[i] > load[i - 1]
+                       ? std::clamp((value - load[i - 1]) / (load[i] - load[i - 1]), 0.0, 1.0)
+                       : 1;
   return strain[i - 1] + t * (strain[i] - strain[i - 1]);
 }
 
 // A programme's rows; `name` tells which.
 double of_programme(const Column &load, const Curve &curve, const std::vector<Stretch> &programme,
                     const std::string &name) {
-  const Phase wanted = name == "strain gained in a hold"  ? keeping
+  const Phase wanted = name == "strain gained in a hold" ? keeping
                        : name == "load fallen in a hold" ? holding
                                                          : unloading;
   const auto &strain = has_gauge(curve) ? gauge_of(curve) : travel_of(curve, name);
@@ -180,7 +186,8 @@ double of_programme(const Column &load, const Curve &curve, const std::vector<St
   }
   for (const auto &stretch : programme) {
     if (stretch.phase != wanted || stretch.last - stretch.first < 5) continue;
-    const std::size_t count = stretch.last - stretch.first, few = std::max<std::size_t>(1, count / 10);
+    const std::size_t count = stretch.last - stretch.first,
+                      few = std::max<std::size_t>(1, count / 10);
     const double strain_there = std::max(least_strain, strain[stretch.first] - strain.front());
     if (wanted == keeping)  // not its first tenth, in which the servo finds the load
       return (mean_of(strain, stretch.last - few, stretch.last) -
@@ -263,7 +270,8 @@ std::vector<CurveQuantity> quantities_of(const std::vector<std::string> &columns
 Eigen::VectorXd rows_of_curve(const Curve &curve, const std::vector<CurveQuantity> &quantities,
                               const TestDefinition &test,
                               const std::map<std::string, double> &variables) {
-  Eigen::VectorXd rows = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(quantities.size()), none);
+  Eigen::VectorXd rows =
+      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(quantities.size()), none);
   Column load;
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     const auto &name = quantities[i].name;

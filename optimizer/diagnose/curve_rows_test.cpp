@@ -58,6 +58,24 @@ double row(const Curve &curve, const std::string &name) {
   return 0;
 }
 
+// A short specimen whose loaded corner is not where the gauges are: they hardly move, or go back.
+TEST(CurveRows, AGaugeThatHardlyMovesWhileTheLoadClimbsHasNoToe) {
+  Curve curve = straight(true);
+  EXPECT_GT(row(curve, "gauge strain to 0.2"), 0);
+  for (const double moved : {0.02, -0.5}) {
+    Curve other = curve;
+    auto &gauge = other.columns[3];
+    const auto &load = other.columns[1];
+    // From 0.25 of the peak on the gauges go on by this share of what they did.
+    for (std::size_t i = 1; i < gauge.size(); ++i) {
+      const double step = curve.columns[3][i] - curve.columns[3][i - 1];
+      gauge[i] = gauge[i - 1] + (load[i] > 0.25 * strength ? moved : 1) * step;
+    }
+    EXPECT_TRUE(std::isnan(row(other, "gauge strain to 0.2"))) << moved;
+    EXPECT_GT(row(other, "platen strain to 0.2"), 0);
+  }
+}
+
 TEST(CurveRows, ACompressionWithAllGaugesHasEachPartOnce) {
   const auto quantities = quantities_of(straight(true).names, {"E"});
   std::map<P, std::vector<std::string>> by_part;
@@ -85,8 +103,8 @@ TEST(CurveRows, AreTheClosedFormOfAStraightCurve) {
   EXPECT_NEAR(row(c, "platen strain to 0.2"), 0.2 / 0.3 + seating / slope, 1e-9);
   // 0.8 of the peak is reached a fifth down the fall.
   const double whole = softer * strength / modulus;
-  EXPECT_NEAR(row(c, "fall to 0.8"),
-              std::log(0.01 + 0.2 * way_down * whole / (whole + seating)), 1e-9);
+  EXPECT_NEAR(row(c, "fall to 0.8"), std::log(0.01 + 0.2 * way_down * whole / (whole + seating)),
+              1e-9);
 }
 
 TEST(CurveRows, AWrongConversionMovesOnlyTheRowsThatHaveALoadInThem) {
