@@ -108,6 +108,26 @@ void cut_common_front(std::string &a, std::string &b) {
 
 }  // namespace
 
+std::string moved_study(const std::string &text, const std::filesystem::path &study_file,
+                        const std::filesystem::path &folder) {
+  namespace fs = std::filesystem;
+  auto lines = lines_of(text);
+  for (const auto &block : blocks_of(lines)) {
+    const std::string key = block.kind == "data" ? "folder" : block.kind == "tests" ? "test" : "";
+    for (std::size_t i = block.first + 1; i < block.last && !key.empty(); ++i) {
+      const std::string path = quoted_value(lines[i]);
+      const bool is_path = key == "folder" || path.find('/') != std::string::npos;
+      if (key_of_line(lines[i]) != key || !is_path || fs::path(path).is_absolute()) continue;
+      const auto now = fs::weakly_canonical(fs::absolute(study_file).parent_path() / path);
+      lines[i].replace(lines[i].find('"') + 1, path.size(),
+                       now.lexically_relative(fs::weakly_canonical(fs::absolute(folder))).string());
+    }
+  }
+  std::string out;
+  for (const auto &line : lines) out += line + "\n";
+  return out;
+}
+
 std::string study_with_effects(const Study &study, const std::vector<SizedEffect> &effects,
                                const std::vector<double> &parameters) {
   auto lines = lines_of(study.source_text);

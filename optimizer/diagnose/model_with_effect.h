@@ -14,6 +14,7 @@
 //   variable an effect sets keeps it: read_study() tells of both.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,11 @@ struct SizedEffect {
   EffectDefinition effect;
   double size = 0;  // SI
 };
+
+// The study's text as a file in another folder reads it: the paths in it, which are relative to the
+// study's own file ([data] folder, a test's with a '/'), turned into paths from `folder`.
+std::string moved_study(const std::string &text, const std::filesystem::path &study_file,
+                        const std::filesystem::path &folder);
 
 std::string study_with_effects(const Study &study, const std::vector<SizedEffect> &effects,
                                const std::vector<double> &parameters);

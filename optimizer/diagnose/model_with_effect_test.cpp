@@ -6,6 +6,7 @@
 
 #include <sstream>
 
+#include "base/table_file.h"
 #include "base/test_folder.h"
 #include "diagnose/forward_prober.h"
 
@@ -122,6 +123,18 @@ TEST(ReadableDiff, ShowsOfALongTableOnlyWhatIsAboutTheChange) {
   EXPECT_EQ(diff,
             "    1 - variables = { ... number_10 = 10, number_11 = 11 }\n"
             "      + variables = { ... number_10 = 10, number_11 = 11, stiffness = 7 }\n");
+}
+
+TEST_F(ModelWithEffect, ReadsItsDataAndDecksFromAnotherFolder) {
+  const auto file = folder.write(
+      "study.toml",
+      "[[tests]]\nname = \"own\"\ntest = \"decks/own\"\n\n[[tests]]\nname = \"ucs\"\n"
+      "test = \"uniaxial_compression\"\n\n[data]\nfolder = \"data\"\n");
+  const auto out = file.parent_path() / "results" / "one";
+  const auto moved = moved_study(read_text_file(file), file, out);
+  EXPECT_NE(moved.find("test = \"../../decks/own\"\n"), std::string::npos) << moved;
+  EXPECT_NE(moved.find("test = \"uniaxial_compression\"\n"), std::string::npos) << moved;
+  EXPECT_NE(moved.find("folder = \"../../data\"\n"), std::string::npos) << moved;
 }
 
 }  // namespace
