@@ -240,6 +240,8 @@ Diagnosis Work::run(const ModelPoint &start) {
   const double trace = ranked.empty() ? 0 : std::sqrt(ranked.front().gain);
   out_.p_omnibus = p_value(setup_.null.omnibus, omnibus);
   out_.p_trace = p_value(setup_.null.trace, trace);
+  out_.omnibus = omnibus, out_.omnibus_alarm = setup_.null.omnibus_alarm;
+  out_.trace = trace, out_.trace_alarm = setup_.null.trace_alarm;
   out_.where = beyond_null(prepared, residual);
   if (omnibus <= setup_.null.omnibus_alarm && trace <= setup_.null.trace_alarm) return out_;
 

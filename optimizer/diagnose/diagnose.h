@@ -58,6 +58,8 @@ struct Diagnosis {
   double margin = 0;       // to the best rival that is not named, in chi squared
   double false_alarm = 0;  // rate the alarm is set to
   double p_omnibus = 1, p_trace = 1;
+  // Largest score of the whole, its blocks and drifts, and of a trace; what an alarm takes.
+  double omnibus = 0, omnibus_alarm = 0, trace = 0, trace_alarm = 0;
   std::vector<Spot> where;    // blocks and drifts beyond the null, largest first, before
   std::vector<Spot> remains;  // the same after the best that the catalogue can do
   double stability = 1;       // share of resamples with the same effect on top

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "diagnose/study_evidence.h"
+#include "diagnose/covariance.h"
 
 namespace bondlab::diagnose {
 
@@ -17,12 +17,16 @@ constexpr int least_packings = 3;    // that a row's change is known from
 constexpr double unknown_variance = 9;
 constexpr double least_share = 0.2;              // of a step that a bound leaves
 constexpr double covered = 2, longest_move = 4;  // in steps
+constexpr double least_amplitude = 0.4;          // of a switch-on size, that a slope is trusted at
 
 std::vector<int> first(int count) {
   std::vector<int> out(static_cast<std::size_t>(count));
   std::iota(out.begin(), out.end(), 0);
   return out;
 }
+
+// Of an estimate's variance from this many packings.
+double widening(double packings) { return (packings - 1) / std::max(1.0, packings - 3); }
 
 double variance_of(const Eigen::VectorXd &values) {
   return (values.array() - values.mean()).square().sum() /
@@ -37,6 +41,10 @@ Eigen::MatrixXd EmulatedProber::Way::at(double x) const {
   return linear * x + squared * (inside * inside + 2 * inside * beyond);
 }
 
+Eigen::RowVectorXd EmulatedProber::Way::noise_at(double x) const {
+  return (x < 0 && below.size() > 0 ? noise_below : noise) * x;
+}
+
 EmulatedProber::Way EmulatedProber::way(const std::vector<double> &knots,
                                         const std::vector<Eigen::MatrixXd> &changes) const {
   Way out;
@@ -44,6 +52,7 @@ EmulatedProber::Way EmulatedProber::way(const std::vector<double> &knots,
   out.high = std::max(0.0, *std::max_element(knots.begin(), knots.end()));
   const Eigen::Index packings = changes.front().rows(), rows = changes.front().cols();
   out.linear = out.squared = Eigen::MatrixXd::Zero(packings, rows);
+  out.noise = Eigen::RowVectorXd::Zero(rows);
   out.unknown = Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(rows, false);
   const auto count = static_cast<Eigen::Index>(knots.size());
   Eigen::MatrixXd bent(count, 2);
@@ -87,6 +96,11 @@ EmulatedProber::Way EmulatedProber::way(const std::vector<double> &knots,
     if (!bends) {
       squared.setZero();
       for (const auto p : known) linear(p) = straight.dot(values.col(p)) / straight.squaredNorm();
+      const Eigen::VectorXd some = of_known(linear);
+      const auto count_known = static_cast<double>(some.size());
+      const double error2 = widening(count_known) * variance_of(some) / count_known;
+      const double mean2 = some.mean() * some.mean();
+      if (mean2 > 0) out.noise(row) = some.mean() * std::min(1.0, error2 / mean2);
     }
     // Packings that lack the row stand at the mean, which leaves mean and scatter as they are.
     const double linear_mean = of_known(linear).mean(), squared_mean = of_known(squared).mean();
@@ -99,16 +113,47 @@ EmulatedProber::Way EmulatedProber::way(const std::vector<double> &knots,
   return out;
 }
 
-EmulatedProber::Way EmulatedProber::effect_way(
-    const std::vector<double> &knots, const std::vector<Eigen::MatrixXd> &changes) const {
-  if (knots.front() > 0) return way(knots, changes);
-  const Way lower = way({knots.front()}, {changes.front()});
-  if (knots.size() == 1) return lower;
-  Way out = way({knots.begin() + 1, knots.end()}, {changes.begin() + 1, changes.end()});
-  out.below = lower.linear;
-  out.low = lower.low;
-  out.unknown = out.unknown || lower.unknown;
-  out.dead = out.dead || lower.dead;
+EmulatedProber::Way EmulatedProber::dead_way() const {
+  const Eigen::MatrixXd none =
+      Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(effect_packings_.size()), rows_.cols(),
+                                std::numeric_limits<double>::quiet_NaN());
+  Way out = way({1.0}, {none});
+  widen(out);
+  return out;
+}
+
+void EmulatedProber::widen(Way &way) const {
+  const auto few = static_cast<double>(effect_packings_.size()),
+             many = static_cast<double>(packings_.size());
+  if (few == many) return;
+  const double factor = std::sqrt(many * (many - 1) / (few * (few - 1)));
+  for (auto *slopes : {&way.linear, &way.squared, &way.below}) {
+    if (slopes->size() == 0) continue;
+    const Eigen::RowVectorXd mean = slopes->colwise().mean();
+    Eigen::MatrixXd out = mean.replicate(static_cast<Eigen::Index>(packings_.size()), 1);
+    out.topRows(slopes->rows()) += factor * (slopes->rowwise() - mean);
+    *slopes = out;
+  }
+}
+
+EmulatedProber::Way EmulatedProber::effect_way(const std::vector<double> &knots,
+                                               const std::vector<Eigen::MatrixXd> &changes) const {
+  Way out;
+  if (knots.front() > 0) {
+    out = way(knots, changes);
+  } else {
+    const Way lower = way({knots.front()}, {changes.front()});
+    out = lower;
+    if (knots.size() > 1) {
+      out = way({knots.begin() + 1, knots.end()}, {changes.begin() + 1, changes.end()});
+      out.below = lower.linear;
+      out.noise_below = lower.noise;
+      out.low = lower.low;
+      out.unknown = out.unknown || lower.unknown;
+      out.dead = out.dead || lower.dead;
+    }
+  }
+  widen(out);
   return out;
 }
 
@@ -126,9 +171,10 @@ EmulatedProber::EmulatedProber(ForwardProber &engine, const std::vector<EffectEn
                                bool with_effects)
     : engine_(engine),
       centre_(centre),
-      packings_(first(std::min(plan.differences, plan.centre))),
+      packings_(first(std::min(std::max(plan.parameters, plan.differences), plan.centre))),
+      effect_packings_(first(std::min(plan.differences, plan.centre))),
       step_(plan.step) {
-  std::vector<ModelPoint> points;
+  std::vector<ModelPoint> points, effect_points;
   for (std::size_t i = 0; i < engine.parameters(); ++i) {
     parameter_knots_.emplace_back();
     for (const double sign : {-1.0, 1.0}) {
@@ -139,11 +185,15 @@ EmulatedProber::EmulatedProber(ForwardProber &engine, const std::vector<EffectEn
       points.push_back(there);
     }
   }
+  const auto planned = [&](std::size_t k) {
+    return plan.effects.empty() ||
+           std::find(plan.effects.begin(), plan.effects.end(), k) != plan.effects.end();
+  };
   if (with_effects)
     for (std::size_t k = 0; k < engine.effects(); ++k)
-      for (const double knot : knots_of(catalogue[k])) {
-        points.push_back(centre);
-        points.back().amplitude(static_cast<Eigen::Index>(k)) = knot;
+      for (const double knot : planned(k) ? knots_of(catalogue[k]) : std::vector<double>()) {
+        effect_points.push_back(centre);
+        effect_points.back().amplitude(static_cast<Eigen::Index>(k)) = knot;
       }
   // The centre first: what all the rest is compared with.
   rows_ = engine.by_packing(centre, first(plan.centre));
@@ -151,19 +201,24 @@ EmulatedProber::EmulatedProber(ForwardProber &engine, const std::vector<EffectEn
   scatter_.resize(rows_.cols());
   for (Eigen::Index row = 0; row < rows_.cols(); ++row) scatter_(row) = variance_of(rows_.col(row));
   engine.prepare(points, packings_);
-  const Eigen::MatrixXd own = rows_.topRows(static_cast<Eigen::Index>(packings_.size()));
-  std::size_t at = 0;
-  const auto changes = [&](std::size_t count) {
+  engine.prepare(effect_points, effect_packings_);
+  const auto take = [&](const std::vector<ModelPoint> &list, const std::vector<int> &packings,
+                        std::size_t &at, std::size_t count) {
+    const Eigen::MatrixXd own = rows_.topRows(static_cast<Eigen::Index>(packings.size()));
     std::vector<Eigen::MatrixXd> out;
     for (std::size_t i = 0; i < count; ++i)
-      out.push_back(engine.by_packing(points[at++], packings_) - own);
+      out.push_back(engine.by_packing(list[at++], packings) - own);
     return out;
   };
+  std::size_t at = 0, at_effect = 0;
   for (std::size_t i = 0; i < engine.parameters(); ++i)
-    parameters_.push_back(way(parameter_knots_[i], changes(parameter_knots_[i].size())));
+    parameters_.push_back(
+        way(parameter_knots_[i], take(points, packings_, at, parameter_knots_[i].size())));
   for (std::size_t k = 0; k < engine.effects() && with_effects; ++k) {
     const auto knots = knots_of(catalogue[k]);
-    effects_.push_back(effect_way(knots, changes(knots.size())));
+    effects_.push_back(planned(k) ? effect_way(knots, take(effect_points, effect_packings_,
+                                                           at_effect, knots.size()))
+                                  : dead_way());
   }
 }
 
@@ -179,8 +234,8 @@ ModelPoint EmulatedProber::moved(std::size_t parameter, double x) const {
   const auto k = static_cast<Eigen::Index>(parameter);
   const auto &p = engine_.space().parameter(parameter);
   auto values = engine_.physical(centre_);
-  const double wanted = p.lower > 0 ? values[parameter] * std::exp(x)
-                                    : values[parameter] + x * (p.upper - p.lower);
+  const double wanted =
+      p.lower > 0 ? values[parameter] * std::exp(x) : values[parameter] + x * (p.upper - p.lower);
   values[parameter] = std::clamp(wanted, p.lower, p.upper);
   ModelPoint out = centre_;
   out.z(k) = engine_.space().to_transformed({values}).z[parameter];
@@ -192,7 +247,7 @@ double EmulatedProber::parameter_step(std::size_t parameter) const {
   return std::clamp(std::abs(moved(parameter, 0.5 * step_).z(k) - centre_.z(k)), 0.01, 1.0);
 }
 
-Eigen::MatrixXd EmulatedProber::change(const ModelPoint &point) const {
+Eigen::MatrixXd EmulatedProber::changes(const ModelPoint &point) const {
   Eigen::MatrixXd out =
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(packings_.size()), rows_.cols());
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
@@ -211,23 +266,36 @@ Eigen::MatrixXd EmulatedProber::change(const ModelPoint &point) const {
   return out;
 }
 
+Eigen::RowVectorXd EmulatedProber::noise(const ModelPoint &point) const {
+  Eigen::RowVectorXd out = Eigen::RowVectorXd::Zero(rows_.cols());
+  for (std::size_t i = 0; i < parameters_.size(); ++i)
+    out += parameters_[i].noise_at(coordinate(i, point));
+  for (std::size_t k = 0; k < effects_.size(); ++k)
+    out += effects_[k].noise_at(point.amplitude(static_cast<Eigen::Index>(k)));
+  return out;
+}
+
 std::vector<Eigen::VectorXd> EmulatedProber::probe(const std::vector<ModelPoint> &batch) {
   std::vector<Eigen::VectorXd> out;
-  for (const auto &point : batch)
-    out.push_back(mean_ + Eigen::VectorXd(change(point).colwise().mean().transpose()));
+  for (const auto &point : batch) {
+    const Eigen::RowVectorXd change = changes(point).colwise().mean() - noise(point);
+    out.push_back(mean_ + Eigen::VectorXd(change.transpose()));
+  }
   return out;
 }
 
 Eigen::MatrixXd EmulatedProber::uncertainty(const ModelPoint &point) {
-  const Eigen::MatrixXd changes = change(point);
+  const Eigen::MatrixXd changed = changes(point);
   const auto packings = static_cast<double>(packings_.size());
-  const double widened = (packings - 1) / std::max(1.0, packings - 3) / packings;
+  const bool with_effects = (point.amplitude.array() != 0).any();
+  const double widened =
+      widening(with_effects ? static_cast<double>(effect_packings_.size()) : packings) / packings;
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(rows_.cols(), rows_.cols());
   Eigen::Index first_row = 0;
   for (const auto &series : engine_.series()) {
     const auto count = static_cast<Eigen::Index>(series.quantities.size());
     out.block(first_row, first_row, count, count) =
-        widened * shrunk_covariance(changes.middleCols(first_row, count));
+        widened * shrunk_covariance(changed.middleCols(first_row, count));
     first_row += count;
   }
   const auto doubt = [&](const Way &way) {
@@ -263,10 +331,11 @@ void EmulatedProber::renew(std::size_t effect, const EffectEntry &entry) {
   std::vector<ModelPoint> points(knots.size(), centre_);
   for (std::size_t i = 0; i < knots.size(); ++i)
     points[i].amplitude(static_cast<Eigen::Index>(effect)) = knots[i];
-  engine_.prepare(points, packings_);
-  const Eigen::MatrixXd own = rows_.topRows(static_cast<Eigen::Index>(packings_.size()));
+  engine_.prepare(points, effect_packings_);
+  const Eigen::MatrixXd own = rows_.topRows(static_cast<Eigen::Index>(effect_packings_.size()));
   std::vector<Eigen::MatrixXd> changes;
-  for (const auto &point : points) changes.push_back(engine_.by_packing(point, packings_) - own);
+  for (const auto &point : points)
+    changes.push_back(engine_.by_packing(point, effect_packings_) - own);
   effects_[effect] = effect_way(knots, changes);
 }
 
@@ -274,6 +343,10 @@ bool EmulatedProber::covers(std::size_t effect, double amplitude) const {
   const Way &way = effects_[effect];
   const double spare = 0.1 * (way.high - way.low);
   return amplitude <= way.high + spare && amplitude >= way.low - spare;
+}
+
+bool EmulatedProber::knows(std::size_t effect, double amplitude) const {
+  return covers(effect, amplitude) && std::abs(amplitude) >= least_amplitude;
 }
 
 std::vector<Eigen::VectorXd> EmulatedProber::confirm(const std::vector<ModelPoint> &points) {

@@ -2,23 +2,28 @@
 //
 // Job: a Prober that knows how well it knows: polynomials over forward runs about one point.
 // Method: at the centre the rows are the mean over many packings. About it every fitted parameter
-//   is stepped up and down and every effect switched on at two sizes, on some of these packings
-//   (common random numbers: a packing is compared with itself). The change along one coordinate is
-//   x L + x^2 Q a row and packing, Q only where its mean over the packings is beyond 2.5 of its
-//   standard errors; changes along different coordinates add, which rows that are logarithms and
-//   shares nearly do. uncertainty() is the covariance of the whole change over the packings, over
-//   their number: it is zero at the centre and grows with what is asked.
-//   x of a parameter is the logarithm of its physical value over the centre's (the share of its range
-//   where it may be zero or negative), because stiffness and strength scale as powers and z bends
-//   near its bounds. An effect that can have either sign has a slope of its own below zero.
+//   is stepped up and down on some of these packings and every effect switched on at two sizes, on
+//   fewer (common random numbers: a packing is compared with itself). Every fit needs the
+//   parameters' changes and few effects; the packings that an effect lacks stand at its mean, with
+//   its scatter widened so that the covariance of the mean stays what it is. The change along one
+//   coordinate is x L + x^2 Q a row and packing, Q only where its mean over the packings is
+//   beyond 2.5 of its standard errors; changes along different coordinates add, which rows that are
+//   logarithms and shares nearly do. A straight row's mean m with standard error s is taken as m
+//   max(0, 1 - w s^2 / m^2), w the widening below: a row that does not change keeps no noise, one
+//   that does is kept. uncertainty() is the covariance of the whole change over the packings, over
+//   their number: it is zero at the centre and grows with what is asked. x of a parameter is the
+//   logarithm of its physical value over the centre's (the share of its range where it may be zero
+//   or negative), because stiffness and strength scale as powers and z bends near its bounds. An
+//   effect that can have either sign has a slope of its own below zero.
 // Why: a brittle specimen breaks along another path after any change, so that one run's difference
 //   is noise; here noise is averaged, and what is left of it is known to the scores. A probe costs
 //   no run, so that one design serves many data sets and thousands of resamples.
 // Source: response surfaces with common random numbers, Kleijnen, Design and Analysis of Simulation
-//   Experiments (2015), ch. 2; the variance of few packings is widened by (P-1)/(P-3) as Student's.
+//   Experiments (2015), ch. 2; the variance of few packings is widened by (P-1)/(P-3) as Student's;
+//   shrinking a mean towards zero: Efron & Morris, J. Am. Stat. Assoc. 70 (1975) 311.
 // Units: as ForwardProber. Failure: a row that fewer than three packings have at a knot is not
 //   changed by that coordinate and is given three times the packings' own scatter; an effect with
-//   no row left is dead (NaN rows).
+//   no row left, or that the plan leaves out, is dead (NaN rows).
 // Limits: beyond its knots a coordinate goes on straight. Effects and parameters do not interact.
 #pragma once
 
@@ -29,9 +34,11 @@
 namespace bondlab::diagnose {
 
 struct EmulatorPlan {
-  int centre = 16;          // packings of the centre's mean
-  int differences = 6;      // of them, those that the differences are taken on; at least 4
-  double step = 0.12;       // of parameters, in x
+  int centre = 16;      // packings of the centre's mean
+  int differences = 6;  // of them, those that effects are switched on on; at least 4
+  double step = 0.12;   // of parameters, in x
+  int parameters = 16;  // packings that parameters are stepped on, no fewer than `differences`
+  std::vector<std::size_t> effects = {};  // switched on; empty: all of the catalogue
 };
 
 class EmulatedProber : public Prober {
@@ -48,6 +55,9 @@ class EmulatedProber : public Prober {
 
   const ModelPoint &centre() const { return centre_; }
   const Eigen::MatrixXd &centre_rows() const { return rows_; }  // packings x rows
+  // The change from the centre on each packing alone: packings x rows, nothing shrunk. Their mean
+  // is the mean change, and their covariance over their number that of the mean.
+  Eigen::MatrixXd changes(const ModelPoint &point) const;
   // Whether a fitted point's parameters lie within twice the steps that were made.
   bool covers(const ModelPoint &point) const;
   // The centre moved towards a point, as far as the steps can be trusted.
@@ -58,6 +68,8 @@ class EmulatedProber : public Prober {
   void renew(std::size_t effect, const EffectEntry &entry);
   // Whether an amplitude lies within the sizes that were run.
   bool covers(std::size_t effect, double amplitude) const;
+  // The same, and not so far below them that a slope between them says nothing of it.
+  bool knows(std::size_t effect, double amplitude) const;
   // Standard deviation over the mean change at switch-on, root mean square over the rows that
   // scatter least: how much of an effect's trace is noise.
   double trace_noise(std::size_t effect) const;
@@ -67,19 +79,23 @@ class EmulatedProber : public Prober {
     double low = 0, high = 0;         // outermost knots
     Eigen::MatrixXd linear, squared;  // packings x rows
     Eigen::MatrixXd below;            // slope at negative x, where it is another one; else empty
+    Eigen::RowVectorXd noise, noise_below;  // of the mean slopes, what chance makes
     Eigen::Array<bool, Eigen::Dynamic, 1> unknown;
     bool dead = false;
-    Eigen::MatrixXd at(double x) const;
+    Eigen::MatrixXd at(double x) const;  // packings x rows
+    Eigen::RowVectorXd noise_at(double x) const;
   };
   Way way(const std::vector<double> &knots, const std::vector<Eigen::MatrixXd> &changes) const;
+  Way dead_way() const;
+  void widen(Way &way) const;  // from the effects' packings to those of the parameters
   Way effect_way(const std::vector<double> &knots,
                  const std::vector<Eigen::MatrixXd> &changes) const;
-  Eigen::MatrixXd change(const ModelPoint &point) const;  // packings x rows
+  Eigen::RowVectorXd noise(const ModelPoint &point) const;  // of the mean change
   std::vector<double> knots_of(const EffectEntry &entry) const;
 
   ForwardProber &engine_;
   ModelPoint centre_;
-  std::vector<int> packings_;  // of the differences
+  std::vector<int> packings_, effect_packings_;             // of the changes
   ModelPoint moved(std::size_t parameter, double x) const;  // of the centre; cut at its bounds
   double coordinate(std::size_t parameter, const ModelPoint &point) const;
   std::vector<std::vector<double>> parameter_knots_;  // x

@@ -83,6 +83,28 @@ TEST_F(Emulated, UncertaintyIsWhatOtherNoiseWouldChange) {
   EXPECT_EQ(emulated.uncertainty(at)(ucs_peak, brazilian_peak), 0) << "series are independent";
 }
 
+// Rows of an effect that does nothing (Brazilian platens, in compression) must not keep what packings
+// make of them by chance, and rows that change must not lose their change.
+TEST_F(Emulated, WhatChanceMakesOfARowIsTakenOffItsMeanAndLeftInItsChanges) {
+  model.chaos = 0.02;
+  EmulatedProber emulated(engine, catalogue, engine.start(), plan);
+  const auto base = emulated.probe({engine.start()}).front();
+  double kept = 0, raw = 0;
+  for (std::size_t k = 0; k < effects.size(); ++k) {
+    if (effects[k].name == "bond_gap" || !effects[k].scales_test.empty()) continue;
+    const auto at = with(engine.start(), effects[k].name, 1);
+    const auto rows = emulated.probe({at}).front();
+    if (!rows.allFinite()) continue;
+    kept += std::pow(rows(ucs_peak) - base(ucs_peak), 2);
+    raw += std::pow(emulated.changes(at).col(ucs_peak).mean(), 2);
+  }
+  ASSERT_GT(raw, 0);
+  EXPECT_LT(kept, 0.45 * raw);
+  const auto gap_on = with(engine.start(), "bond_gap", 2);
+  EXPECT_NEAR(emulated.probe({gap_on}).front()(ucs_peak) - base(ucs_peak),
+              emulated.changes(gap_on).col(ucs_peak).mean(), 0.01);
+}
+
 TEST_F(Emulated, ConfirmIsTheEngineOnTheSamePackings) {
   EmulatedProber emulated(engine, catalogue, engine.start(), plan);
   const auto at = with(scaled(sigma_c, 1.07), "bond_gap", 1.4);

@@ -49,8 +49,16 @@ class Sizer {
     return without_data(evidence);
   }
 
+  // The norm of the mean change without what the noise of few packings adds to it.
   double units(const EffectDefinition &effect, double size) {
-    return fitted_.off(whitening_.apply(change(effect, size))).norm();
+    const Eigen::MatrixXd changes = this->changes(effect, size);
+    const auto count = static_cast<double>(changes.rows());
+    Eigen::MatrixXd off(changes.cols(), changes.rows());
+    for (Eigen::Index i = 0; i < changes.rows(); ++i)
+      off.col(i) = fitted_.off(whitening_.apply(changes.row(i).transpose()));
+    const Eigen::VectorXd mean = off.rowwise().mean();
+    const double noise = (off.colwise() - mean).squaredNorm() / (count * (count - 1));
+    return std::sqrt(std::max(0.0, mean.squaredNorm() - noise));
   }
 
   // The size with so many units, or the largest there is.
@@ -65,14 +73,15 @@ class Sizer {
   }
 
  private:
-  Eigen::VectorXd change(const EffectDefinition &effect, double size) {
+  Eigen::MatrixXd changes(const EffectDefinition &effect, double size) {  // packings x rows
     auto &emulated = model_.emulated();
     ModelPoint with = emulated.centre();
     for (std::size_t k = 0; k < model_.effects().size(); ++k)
       if (model_.effects()[k].name == effect.name)
         with.amplitude(static_cast<Eigen::Index>(k)) = size / model_.catalogue()[k].switch_on;
-    const auto rows = emulated.probe({emulated.centre(), with});
-    return rows[1] - rows[0] + measuring(effect, size);
+    Eigen::MatrixXd out = emulated.changes(with);
+    out.rowwise() += measuring(effect, size).transpose();
+    return out;
   }
 
   // What an error of measuring does to the centre's curves: packings as specimens of a campaign.
@@ -88,8 +97,7 @@ class Sizer {
     for (std::size_t t = 0; t < series.size(); ++t)
       for (int packing = 0; packing < campaign; ++packing) {
         const auto outcome = engine.curves(model_.emulated().centre(), packing)[t];
-        runs.push_back(
-            {study.test(series[t].test).definition.name, series[t].name, outcome.curve});
+        runs.push_back({study.test(series[t].test).definition.name, series[t].name, outcome.curve});
         variables.push_back(outcome.deck_variables);
       }
     const auto rows_of = [&] {
@@ -122,12 +130,13 @@ class Sizer {
   Projection fitted_;
 };
 
-// Empty, or the switch-on size that puts `size` between the two that are run.
+// Empty, or the switch-on size that puts `size` between the two that are run: it is beyond them, or
+// so far below that a slope between them says nothing of it.
 std::map<std::size_t, double> beyond_sizes_run(StudyModel &model, const EffectDefinition &effect,
                                                double size) {
   for (std::size_t k = 0; k < model.effects().size(); ++k) {
     const double switch_on = model.catalogue()[k].switch_on;
-    if (model.effects()[k].name != effect.name || model.emulated().covers(k, size / switch_on))
+    if (model.effects()[k].name != effect.name || model.emulated().knows(k, size / switch_on))
       continue;
     return {{k, std::copysign(size / 1.5, switch_on)}};
   }
@@ -221,8 +230,7 @@ std::vector<TrialCase> run_trial(const HiddenSet &set, const Study &laboratory,
   EmulatorPlan plan;
   plan.differences = options.diagnosis.packings;
   plan.centre = std::max(options.diagnosis.scatter, options.diagnosis.packings);
-  StudyModel model(laboratory, all, engine(options.out / "model"), plan,
-                   options.progress);
+  StudyModel model(laboratory, all, engine(options.out / "model"), plan, options.progress);
   say(fmt::format("model: {} packings, {} for differences, {} effects", plan.centre,
                   plan.differences, model.effects().size()));
   model.start(probed(measured_series(with_data(laboratory, folder_of(blank)), true)));
@@ -283,6 +291,8 @@ std::vector<TrialCase> run_trial(const HiddenSet &set, const Study &laboratory,
       trial.others.push_back(std::move(names));
     }
     trial.margin = d.margin, trial.p_trace = d.p_trace, trial.p_omnibus = d.p_omnibus;
+    trial.trace = d.trace, trial.trace_alarm = d.trace_alarm;
+    trial.omnibus = d.omnibus, trial.omnibus_alarm = d.omnibus_alarm;
     trial.gap = result.gap, trial.cross = result.cross;
     trial.predicted_gain = d.predicted_gain, trial.confirmed_gain = result.confirmed_gain;
     trial.new_runs = result.runs;

@@ -2,13 +2,15 @@
 //
 // Job: the diagnosis put to the test on the engine: every case of a hidden set made, diagnosed and
 //   judged.
-// Method: one StudyModel of the laboratory, catalogue and outsiders side by side, is made once about
+// Method: one StudyModel of the laboratory, catalogue and outsiders side by side, is made once
+// about
 //   the study's start; effects are taken at sizes that rise above the noise of the plan. A case's
-//   sizes follow from its noise units: the norm of the emulated change, whitened as the plan has it,
-//   off what the parameters can do; an effect whose largest size gives less is hidden at that size
-//   and the units it has are told. Data are made by hide_effect() and read back from their folder;
-//   for the diagnosis the outsiders' admissible size is zero. What a case costs anew is its data,
-//   effects beyond the sizes run, and the engine at the fits before and after.
+//   sizes follow from its noise units: the norm of the change, whitened as the plan has it, off
+//   what the parameters can do, without what few packings' noise adds to it; an effect whose
+//   largest size gives less is hidden at that size and the units it has are told. Data are made by
+//   hide_effect() and read back from their folder; for the diagnosis the outsiders' admissible size
+//   is zero. What a case costs anew is its data, effects beyond the sizes run, and the engine at
+//   the fits before and after.
 // Judged: `right`: the one name hidden (of a pair: both, and no other); `in_set`: offered with
 //   others; `outside`: not in the catalogue; `nothing`; else `wrong`.
 // Source: sizes and judgement as in the closed-form benchmark (benchmark.h).
@@ -43,6 +45,7 @@ struct TrialCase {
   std::vector<std::string> named;
   std::vector<double> named_sizes;
   double margin = 0, p_trace = 1, p_omnibus = 1;
+  double trace = 0, trace_alarm = 0, omnibus = 0, omnibus_alarm = 0;
   Gap gap;
   CrossGap cross;
   double predicted_gain = 0, confirmed_gain = 0;

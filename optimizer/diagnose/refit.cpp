@@ -42,10 +42,22 @@ std::vector<ModelPoint> difference_points(const Prober &prober, const ModelPoint
   return batch;
 }
 
-// Columns of a refit at a point where effects are on: the step of an amplitude is half its size or
-// half a switch-on size, whichever is larger.
-Eigen::MatrixXd columns_at(Prober &prober, const Whitening &whitening, const ModelPoint &point,
-                           const std::vector<std::size_t> &effects) {
+Eigen::VectorXd masked(Eigen::VectorXd rows, const Eigen::VectorXd &on) {
+  if (on.size() > 0) rows.array() *= on.array();
+  return rows;
+}
+
+Eigen::MatrixXd masked_columns(Eigen::MatrixXd columns, const Eigen::VectorXd &on) {
+  if (on.size() > 0) columns.array().colwise() *= on.array();
+  return columns;
+}
+
+}  // namespace
+
+// The step of an amplitude is a tenth of its size or a quarter of a switch-on size, whichever is
+// larger.
+Eigen::MatrixXd fit_columns(Prober &prober, const Whitening &whitening, const ModelPoint &point,
+                            const std::vector<std::size_t> &effects) {
   std::vector<double> steps;
   auto batch = difference_points(prober, point, steps);
   for (const auto effect : effects) {
@@ -57,8 +69,15 @@ Eigen::MatrixXd columns_at(Prober &prober, const Whitening &whitening, const Mod
   return differences(prober.probe(batch), 1, steps, whitening, nullptr);
 }
 
-void move(ModelPoint &point, const Eigen::VectorXd &step, const std::vector<std::size_t> &effects,
-          const std::vector<EffectEntry> &catalogue, std::vector<bool> &at_bound) {
+Eigen::VectorXd refit_damping(Eigen::Index p, Eigen::Index q) {
+  Eigen::VectorXd out(p + q);
+  out << Eigen::VectorXd::Constant(p, 1 / longest_step), Eigen::VectorXd::Constant(q, 1e-6);
+  return out;
+}
+
+void move_point(ModelPoint &point, const Eigen::VectorXd &step,
+                const std::vector<std::size_t> &effects, const std::vector<EffectEntry> &catalogue,
+                std::vector<bool> &at_bound) {
   const Eigen::Index p = point.z.size();
   for (Eigen::Index i = 0; i < p; ++i)
     point.z(i) = std::clamp(point.z(i) + step(i), std::min(point.z(i), -farthest),
@@ -72,18 +91,6 @@ void move(ModelPoint &point, const Eigen::VectorXd &step, const std::vector<std:
     at_bound[i] = wanted < low || wanted > high;
   }
 }
-
-Eigen::VectorXd masked(Eigen::VectorXd rows, const Eigen::VectorXd &on) {
-  if (on.size() > 0) rows.array() *= on.array();
-  return rows;
-}
-
-Eigen::MatrixXd masked_columns(Eigen::MatrixXd columns, const Eigen::VectorXd &on) {
-  if (on.size() > 0) columns.array().colwise() *= on.array();
-  return columns;
-}
-
-}  // namespace
 
 Linearisation linearise(Prober &prober, const Whitening &whitening, const ModelPoint &point,
                         bool with_traces) {
@@ -128,8 +135,7 @@ Refit refit(Prober &prober, const Whitening &whitening, const std::vector<Effect
   if (!std::isfinite(chi2)) return result;
   bool fresh = false;  // columns belong to the point
   // Damping: what the rows hardly see hardly moves.
-  Eigen::VectorXd damping(p + q);
-  damping << Eigen::VectorXd::Constant(p, 1 / longest_step), Eigen::VectorXd::Constant(q, 1e-6);
+  const Eigen::VectorXd damping = refit_damping(p, q);
   const auto solve = [&](const Eigen::MatrixXd &matrix) {
     Eigen::MatrixXd damped(matrix.rows() + p + q, p + q);
     damped << matrix, Eigen::MatrixXd(damping.asDiagonal());
@@ -156,7 +162,7 @@ Refit refit(Prober &prober, const Whitening &whitening, const std::vector<Effect
     const double promised = chi2 - (residual - freed * step).squaredNorm();
     if (promised < gain_left) {
       if (fresh) break;
-      columns = masked_columns(columns_at(prober, whitening, result.point, effects), on);
+      columns = masked_columns(fit_columns(prober, whitening, result.point, effects), on);
       fresh = true;
       continue;
     }
@@ -164,7 +170,7 @@ Refit refit(Prober &prober, const Whitening &whitening, const std::vector<Effect
     for (int halving = 0; halving < 5 && !accepted; ++halving, step *= 0.5) {
       ModelPoint trial = result.point;
       std::vector<bool> bound = result.at_bound;
-      move(trial, step, effects, catalogue, bound);
+      move_point(trial, step, effects, catalogue, bound);
       const auto rows = prober.probe({trial});
       const Eigen::VectorXd next = masked(whitening.residual(rows.front()), on);
       if (!next.allFinite() || next.squaredNorm() >= chi2) continue;
@@ -178,7 +184,7 @@ Refit refit(Prober &prober, const Whitening &whitening, const std::vector<Effect
     if (!accepted && fresh) break;
     fresh = false;
     if (!accepted || poor) {
-      columns = masked_columns(columns_at(prober, whitening, result.point, effects), on);
+      columns = masked_columns(fit_columns(prober, whitening, result.point, effects), on);
       fresh = true;
     }
   }

@@ -46,6 +46,19 @@ struct Refit {
   bool admissible() const;     // no amplitude on a bound
 };
 
+// Whitened columns at a point: the Jacobian, then the slopes along the amplitudes of `effects`.
+Eigen::MatrixXd fit_columns(Prober &prober, const Whitening &whitening, const ModelPoint &point,
+                            const std::vector<std::size_t> &effects);
+
+// What keeps p parameters and q amplitudes from running away, one over its reach, in their units.
+Eigen::VectorXd refit_damping(Eigen::Index p, Eigen::Index q);
+
+// Adds a step of z and the amplitudes of `effects`; an amplitude stays within its bounds, which
+// `at_bound` then tells.
+void move_point(ModelPoint &point, const Eigen::VectorXd &step,
+                const std::vector<std::size_t> &effects, const std::vector<EffectEntry> &catalogue,
+                std::vector<bool> &at_bound);
+
 // Fits z and the amplitudes of `effects`, from `start`. `columns` are those at the start, Jacobian
 // first; `on` limits the rows used (empty: all; else weights 0 or 1 a row, for held-out tests).
 Refit refit(Prober &prober, const Whitening &whitening, const std::vector<EffectEntry> &catalogue,

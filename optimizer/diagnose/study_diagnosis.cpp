@@ -12,9 +12,13 @@
 #include "base/random.h"
 #include "base/units.h"
 #include "diagnose/comparators.h"
+#include "diagnose/engine_fit.h"
+#include "diagnose/fit_interval.h"
 #include "diagnose/null_table.h"
 #include "diagnose/omnibus.h"
 #include "diagnose/row_selection.h"
+#include "diagnose/study_advice.h"
+#include "diagnose/study_gap.h"
 #include "diagnose/study_null.h"
 
 namespace bondlab::diagnose {
@@ -22,13 +26,14 @@ namespace bondlab::diagnose {
 namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
-constexpr int null_draws = 2000, placebo_draws = 200, most_moves = 5;
+constexpr int null_draws = 2000, most_moves = 5;
 constexpr std::size_t least_for_holdout = 5;
 constexpr int most_rounds = 3;
-constexpr double contender = 40;            // behind the best in deviance
-constexpr double size_low = 5, size_aim = 8;  // noise units that an effect is switched on at
+constexpr double contender = 40;                              // behind the best in deviance
+constexpr double size_low = 5, size_high = 25, size_aim = 8;  // noise units at switch-on
 constexpr double longest_growth = 8;
 constexpr double alarm_rate = 0.01, table_size = 10;
+constexpr double interval_95 = 1.959964;
 
 std::string choose_holdout(const std::vector<MeasuredSeries> &series, const std::string &wanted) {
   if (wanted == "none") return "";
@@ -41,12 +46,6 @@ std::string choose_holdout(const std::vector<MeasuredSeries> &series, const std:
   if (series.size() < 2)
     throw UserError("--holdout: this is all that was measured, nothing would be left to diagnose");
   return wanted;
-}
-
-double rms(const Eigen::VectorXd &residual) {
-  return residual.size() == 0 ? nan_value
-                              : std::sqrt(residual.squaredNorm() /
-                                          static_cast<double>(residual.size()));
 }
 
 // The rows of a data set among the model's, and those that are not held out.
@@ -100,98 +99,22 @@ std::vector<double> physical_sd(const ParameterSpace &space, const Refit &fit) {
   return out;
 }
 
-// Gap after the refit of the parameters and a placebo, over the rows judged: those held out where
-// there are any, else all.
-double placebo_gap(const Linearisation &model, std::size_t effect, const Eigen::VectorXd &training,
-                   const Eigen::VectorXd &judged, std::uint64_t seed) {
-  RandomStream random(seed, 31);
-  const Eigen::VectorXd residual = model.residual;
-  double sum = 0;
-  for (int draw = 0; draw < placebo_draws; ++draw) {
-    Eigen::VectorXd placebo = model.traces.col(static_cast<Eigen::Index>(effect));
-    for (Eigen::Index row = 0; row < placebo.size(); ++row)
-      if (random.uniform() < 0.5) placebo(row) = -placebo(row);
-    Eigen::MatrixXd columns(residual.size(), model.jacobian.cols() + 1);
-    columns << model.jacobian, placebo;
-    const Eigen::MatrixXd used = training.asDiagonal() * columns;
-    const Eigen::VectorXd x =
-        used.colPivHouseholderQr().solve(residual.cwiseProduct(training));
-    sum += (residual - columns * x).cwiseProduct(judged).squaredNorm() / judged.sum();
-  }
-  return std::sqrt(sum / placebo_draws);
-}
-
-// `rows`: the model's at the fits before and after, all series.
-void measure_gaps(Prober &model, const Evidence &evidence, const std::vector<Eigen::VectorXd> &rows,
-                  StudyDiagnosis &out, std::uint64_t seed) {
-  const auto &d = out.diagnosis;
-  // One yardstick for both: what the model does not know of its rows after.
-  const Whitening whitening(evidence, model.uncertainty(d.after.point));
-  const Eigen::VectorXd before = whitening.residual(rows[0]), after = whitening.residual(rows[1]);
-  Eigen::VectorXd training = Eigen::VectorXd::Ones(before.size());
-  for (const auto &s : evidence.series) {
-    const bool held = s.name == out.holdout;
-    if (held) training.segment(s.first, s.count).setZero();
-    const SeriesGap gap{s.name, held, rms(before.segment(s.first, s.count)),
-                        rms(after.segment(s.first, s.count))};
-    out.by_series.push_back(gap);
-    if (held) out.gap.holdout_before = gap.before, out.gap.holdout_after = gap.after;
-  }
-  const double chi2_before = before.cwiseProduct(training).squaredNorm(),
-               chi2_after = after.cwiseProduct(training).squaredNorm();
-  out.gap.before = std::sqrt(chi2_before / training.sum());
-  out.gap.after = std::sqrt(chi2_after / training.sum());
-  out.confirmed_gain = chi2_before - chi2_after;
-  const double fitted = static_cast<double>(d.after.columns.cols());
-  out.gap.noise_floor = std::sqrt(std::max(0.0, 1 - fitted / training.sum()));
-  if (d.effects.empty()) return;
-  Linearisation linear = linearise(model, whitening, d.before.point);
-  linear.residual = before;
-  const Eigen::VectorXd judged =
-      out.holdout.empty() ? training
-                          : Eigen::VectorXd(Eigen::VectorXd::Ones(training.size()) - training);
-  out.gap.placebo_after = placebo_gap(linear, d.effects.front().effect, training, judged, seed);
-}
-
-// A name that does not help a series it was not fitted to is not given alone: every effect that was
-// tried and is admissible stands beside it.
-void demote(StudyDiagnosis &out) {
+// Size and interval of the effects that the fit after has on.
+void renew_sizes(StudyDiagnosis &out) {
   auto &d = out.diagnosis;
-  if (d.verdict != Verdict::one || out.holdout.empty()) return;
-  if (!(out.gap.holdout_after >= out.gap.holdout_before)) return;
-  out.advice.push_back(fmt::format(
-      "'{}' was best by a margin of {:.1f} in chi squared, but the series held out is no better "
-      "with it ({:.2f} before, {:.2f} after): it is not given alone",
-      out.catalogue[d.effects.front().effect].name, d.margin, out.gap.holdout_before,
-      out.gap.holdout_after));
-  for (const auto &tried : d.tried) {
-    if (tried.effects.size() != 1 || tried.effects.front() == d.effects.front().effect) continue;
-    NamedEffect other;
-    other.effect = tried.effects.front();
-    other.size = tried.amplitudes.front() * out.catalogue[other.effect].switch_on;
-    other.low = other.high = nan_value;
-    other.margin = tried.behind;
-    d.effects.push_back(other);
-  }
-  d.verdict = d.effects.size() > 1 ? Verdict::set : Verdict::not_in_catalogue;
-  if (d.verdict == Verdict::not_in_catalogue) d.effects.clear();
-  d.margin = 0;
-}
-
-void advise_on(StudyDiagnosis &out) {
-  const auto &d = out.diagnosis;
-  if (d.verdict == Verdict::set)
-    for (const auto &named : d.effects) {
-      const auto &entry = out.catalogue[named.effect];
-      out.advice.push_back(entry.name + ": " + entry.separating_test);
+  const Eigen::Index p = d.after.point.z.size();
+  for (std::size_t i = 0; i < d.after.effects.size(); ++i)
+    for (auto &named : d.effects) {
+      if (named.effect != d.after.effects[i]) continue;
+      const auto at = p + static_cast<Eigen::Index>(i);
+      const double unit = out.catalogue[named.effect].switch_on;
+      const double amplitude = d.after.point.amplitude(static_cast<Eigen::Index>(named.effect));
+      const double half = interval_95 * std::sqrt(std::max(0.0, d.after.covariance(at, at)));
+      named.size = amplitude * unit;
+      named.low = (amplitude - half) * unit;
+      named.high = (amplitude + half) * unit;
+      if (named.low > named.high) std::swap(named.low, named.high);
     }
-  if (d.verdict == Verdict::not_in_catalogue)
-    out.advice.push_back(
-        "no effect of the catalogue leaves nothing: look at where it shows, repeat that test, or "
-        "add an effect as one file in inputs/effects");
-  if (d.verdict == Verdict::one || d.verdict == Verdict::two)
-    out.advice.push_back("confirm on a test that was not used: " +
-                         out.catalogue[d.effects.front().effect].separating_test);
 }
 
 // Moves the model's centre until the fit of the parameters alone lies within the steps made.
@@ -203,13 +126,14 @@ void settle(StudyModel &model, const std::vector<MeasuredSeries> &all, const std
     const Parts parts = split(series, rows, holdout);
     auto &emulated = model.emulated();
     RowSelection prober(emulated, parts.training_rows);
-    const Evidence evidence = evidence_of(
-        model.study(), parts.training, columns_of(emulated.centre_rows(), parts.training_rows));
+    const Evidence evidence = evidence_of(model.study(), parts.training,
+                                          columns_of(emulated.centre_rows(), parts.training_rows));
     Whitening whitening(evidence);
     Refit fit;
     fit_base(prober, evidence, model.catalogue(), emulated.centre(), fit, whitening);
     if (emulated.covers(fit.point) || move == most_moves) return;
-    say(fmt::format("the fit is at chi squared {:.1f} of {} rows, beyond the steps made: centre "
+    say(
+        fmt::format("the fit is at chi squared {:.1f} of {} rows, beyond the steps made: centre "
                     "moved",
                     fit.chi2, parts.training_rows.size()));
     model.move_to(emulated.towards(fit.point));
@@ -226,7 +150,7 @@ std::map<std::size_t, double> beyond_what_was_run(StudyModel &model, const Diagn
       const auto k = tried.effects[i];
       const auto &entry = model.catalogue()[k];
       const double a = tried.amplitudes[i];
-      if (model.emulated().covers(k, a)) continue;
+      if (model.emulated().knows(k, a)) continue;
       const double bound = a > 0 ? entry.largest : -entry.lowest;
       const double grown = std::clamp(std::abs(a) / 1.5, 1.0 / longest_growth, longest_growth);
       double size = entry.switch_on * grown;
@@ -245,20 +169,24 @@ void scale_to_noise(StudyModel &model, Prober &prober, const Evidence &evidence,
   for (int round = 0; round < 2; ++round) {
     const Linearisation linear = linearise(prober, plan, model.emulated().centre());
     const ScoreTable scores(Projection(linear.jacobian), linear, model.catalogue());
-    std::map<std::size_t, double> larger;
+    std::map<std::size_t, double> other;
     for (std::size_t k = 0; k < model.catalogue().size(); ++k) {
       const auto &entry = model.catalogue()[k];
-      if (scores.norm(k) >= size_low || linear.dead[k]) continue;
-      const double wanted = std::min(longest_growth, size_aim / std::max(0.1, scores.norm(k)));
+      const double norm = scores.norm(k);
+      if (linear.dead[k] || (norm >= size_low && norm <= size_high)) continue;
+      const double wanted =
+          std::clamp(size_aim / std::max(0.1, norm), 1 / longest_growth, longest_growth);
       const double bound = std::abs(entry.largest);
-      const double size = std::copysign(std::min(std::abs(entry.switch_on) * wanted, bound),
-                                        entry.switch_on);
-      if (std::abs(size) > 1.2 * std::abs(entry.switch_on)) larger[k] = size;
+      const double size =
+          std::copysign(std::min(std::abs(entry.switch_on) * wanted, bound), entry.switch_on);
+      if (std::abs(std::log(size / entry.switch_on)) > 0.2) other[k] = size;
     }
-    if (larger.empty()) return;
-    say(fmt::format("{} effects hardly rise above noise at their switch-on size: taken larger",
-                    larger.size()));
-    model.rescale(larger);
+    if (other.empty()) return;
+    say(
+        fmt::format("{} effects are lost in noise at their switch-on size, or far above it: taken "
+                    "at other sizes",
+                    other.size()));
+    model.rescale(other);
   }
 }
 
@@ -292,7 +220,8 @@ StudyDiagnosis diagnose_measured(StudyModel &model, std::vector<MeasuredSeries> 
   const Linearisation planned = linearise(prober, plan, at);
   isolability(ScoreTable(Projection(planned.jacobian), planned, out.catalogue), out);
   for (const auto &pair : out.isolability)
-    say(fmt::format("can't be told apart well: {} and {} (cosine {:.2f}, confused {:.0f} % of the "
+    say(
+        fmt::format("can't be told apart well: {} and {} (cosine {:.2f}, confused {:.0f} % of the "
                     "time at {:.0f} noise units)",
                     pair.first, pair.second, pair.cosine, 100 * pair.chance, table_size));
   for (const auto &name : out.hidden) say("can't be seen by these tests at all: " + name);
@@ -324,6 +253,28 @@ StudyDiagnosis diagnose_measured(StudyModel &model, std::vector<MeasuredSeries> 
     model.rescale(further);
   }
 
+  // Where the engine has the fits, and how far off they may be.
+  const EngineRows engine_rows = [&](const std::vector<ModelPoint> &points) {
+    std::vector<Eigen::VectorXd> rows;
+    for (const auto &row : emulated.confirm(points)) rows.push_back(prober.of(row));
+    return rows;
+  };
+  const auto finish = [&](Refit &fit) {
+    const Eigen::MatrixXd doubt = prober.uncertainty(fit.point);
+    const Whitening whitening(evidence, doubt);
+    fit.columns = fit_columns(prober, whitening, fit.point, fit.effects);
+    widen_covariance(
+        fit, {study, parts.training, by_packing, evidence, doubt, whitening.undo(fit.columns), {}},
+        options.seed);
+    if (confirm) fit_on_engine(fit, engine_rows, whitening, out.catalogue);
+  };
+  finish(out.diagnosis.before);
+  if (out.diagnosis.after.effects.empty())
+    out.diagnosis.after = out.diagnosis.before;
+  else
+    finish(out.diagnosis.after);
+  renew_sizes(out);
+
   const auto &d = out.diagnosis;
   {
     const Projection fitted(d.model.jacobian);
@@ -339,8 +290,7 @@ StudyDiagnosis diagnose_measured(StudyModel &model, std::vector<MeasuredSeries> 
                                            residual, omnibus_alarm),
                   name_by_bic(scores, residual), name_by_lasso(scores, out.catalogue, residual)};
   }
-  if (!d.effects.empty())
-    out.cross = cross_gap(prober, evidence, out.catalogue, d, options.seed);
+  if (!d.effects.empty()) out.cross = cross_gap(prober, evidence, out.catalogue, d, options.seed);
   const ParameterSpace space(study.parameters);
   out.parameters_before = model.engine().physical(d.before.point);
   out.parameters_after = model.engine().physical(d.after.point);
@@ -377,7 +327,8 @@ StudyDiagnosis diagnose_measured(StudyModel &model, std::vector<MeasuredSeries> 
         if (probed[i].name == s.probed.name)
           out.shown.push_back({s.probed.name, s.curves, before[i].curve, after[i].curve});
   }
-  demote(out);
+  give_not_alone(out);
+  if (confirm) advise_tests(model, series, out);
   advise_on(out);
   out.runs = model.runs() - runs_before;
   return out;
@@ -400,7 +351,8 @@ StudyDiagnosis diagnose_study(const Study &study, const std::vector<EffectDefini
   model.start(probed(series));
   std::vector<std::string> lost = not_modelled(series, model.engine().series());
   for (auto &one : lost) {
-    one = "not compared: " + one + " (some packing of the simulation gives no figure, or all the same)";
+    one = "not compared: " + one +
+          " (some packing of the simulation gives no figure, or all the same)";
     say(one);
   }
   settle(model, series, holdout, say);

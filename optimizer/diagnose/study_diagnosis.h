@@ -7,9 +7,9 @@
 //   series but the one held out -> the engine itself at the fits before and after -> the gap.
 //   The held-out series is fixed before anything runs: the one named, else the last of five or
 //   more, else none. The gap is the root mean square of the whitened rows, in noise units; the gain
-//   realised is that of the engine, the one predicted that of the score. The placebo has the trace of the first effect
-//   named with the signs of its rows drawn at random, so that it has the same freedom and size; the
-//   mean over 200 such draws stands.
+//   realised is that of the engine, the one predicted that of the score. The placebo has the trace
+//   of the first effect named with the signs of its rows drawn at random, so that it has the same
+//   freedom and size; the mean over 200 such draws stands.
 // Units: SI. Failure: UserError for names that aren't there; runs that fail are NaN rows.
 // Limits: one effect or pair a call: run it again on the new study for the next.
 #pragma once
@@ -28,7 +28,7 @@ namespace bondlab::diagnose {
 
 struct StudyDiagnosisOptions {
   int packings = 6;  // that differences are taken on
-  int scatter = 16;  // that the simulation's mean is over, and its scatter
+  int scatter = 40;  // that the simulation's mean is over, and its scatter
   std::string holdout;
   std::uint64_t seed = 1;
 };
@@ -42,6 +42,7 @@ struct SeriesGap {
   std::string name;
   bool held_out = false;
   double before = 0, after = 0;
+  int rows = 0;
 };
 
 struct Confusable {
@@ -67,8 +68,8 @@ struct StudyDiagnosis {
   std::vector<double> sd_before, sd_after;  // physical, linear
   std::vector<double> sizes;                // of all effects, after
   Gap gap;
-  CrossGap cross;              // of what was named, every series held out in turn
-  double confirmed_gain = 0;   // in chi squared, of the engine's own rows; NaN: not run
+  CrossGap cross;                         // of what was named, every series held out in turn
+  double confirmed_gain = 0;              // in chi squared, of the engine's own rows; NaN: not run
   std::vector<double> z_before, z_after;  // parameters, transformed
   std::vector<SeriesGap> by_series;
   std::vector<RowKey> rows;  // those diagnosed
@@ -88,7 +89,8 @@ StudyDiagnosis diagnose_study(const Study &study, const std::vector<EffectDefini
                               const ModelFactory &model, const StudyDiagnosisOptions &options,
                               const StudySinks &sinks = {});
 
-// Takes effects whose change at switch-on is lost in the plan's noise at a size that is not.
+// Takes effects whose change at switch-on is lost in the plan's noise at a size that is not, and
+// those far above it at a smaller one: what is near the noise is where a name is in doubt.
 void scale_to_noise(StudyModel &model, Prober &prober, const Evidence &evidence,
                     const std::function<void(const std::string &)> &say);
 

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "diagnose/covariance.h"
 #include "forward/run_plan.h"
 
 namespace bondlab::diagnose {
@@ -86,35 +87,35 @@ std::vector<MeasuredSeries> from_targets(const Study &study) {
   return out;
 }
 
-// Of packings and specimens together, each about its own mean: sensors and an effect that scatters
-// are in the specimens only, and few of either make a covariance.
-Eigen::MatrixXd pooled(const Eigen::MatrixXd &packings, const Eigen::MatrixXd &replicates) {
-  if (replicates.rows() < 2) return shrunk_covariance(packings);
-  const double a = static_cast<double>(packings.rows()) - 1,
-               b = static_cast<double>(replicates.rows()) - 1;
-  // Where specimens scatter more than packings do, row by row, the specimens are right.
-  const Eigen::MatrixXd both = (a * shrunk_covariance(packings) + b * shrunk_covariance(replicates)) / (a + b);
-  Eigen::MatrixXd out = both * ((a + b) / (a + b + static_cast<double>(both.rows())));
-  out.diagonal() = both.diagonal();
-  for (Eigen::Index j = 0; j < out.rows(); ++j) {
-    const Eigen::VectorXd column = replicates.col(j);
-    const double own = (column.array() - column.mean()).square().sum() / b;
-    out(j, j) = std::max(out(j, j), own);
+// How much more than packings the specimens scatter, one a row; a quantity of one kind of test has
+// the same excess in all its series.
+Eigen::VectorXd excess_of(const Study &study, const std::vector<MeasuredSeries> &series,
+                          const Eigen::MatrixXd &by_packing) {
+  std::map<std::pair<std::string, std::string>, std::size_t> places;
+  std::vector<ExcessTally> tallies;
+  std::vector<std::size_t> tally_of_row;
+  Eigen::Index row = 0;
+  for (const auto &s : series) {
+    const auto &test = study.test(s.probed.test).definition.name;
+    const Eigen::VectorXd own = variances(s.replicates);
+    for (std::size_t j = 0; j < s.probed.quantities.size(); ++j, ++row) {
+      const auto place =
+          places.emplace(std::make_pair(test, s.probed.quantities[j].name), tallies.size());
+      if (place.second) tallies.emplace_back();
+      tally_of_row.push_back(place.first->second);
+      if (s.stated.size() > 0) continue;
+      tallies[tally_of_row.back()].add(
+          own(static_cast<Eigen::Index>(j)), variances(by_packing.col(row))(0),
+          static_cast<double>(s.replicates.rows()) - 1, static_cast<double>(by_packing.rows()) - 1);
+    }
   }
+  const auto excess = excess_scatter(tallies);
+  Eigen::VectorXd out(row);
+  for (Eigen::Index i = 0; i < row; ++i) out(i) = excess[tally_of_row[static_cast<std::size_t>(i)]];
   return out;
 }
 
 }  // namespace
-
-Eigen::MatrixXd shrunk_covariance(const Eigen::MatrixXd &sample) {
-  const Eigen::MatrixXd centred = sample.rowwise() - sample.colwise().mean();
-  const double dof = std::max(1.0, static_cast<double>(sample.rows()) - 1);
-  Eigen::MatrixXd covariance = centred.transpose() * centred / dof;
-  const Eigen::VectorXd diagonal = covariance.diagonal();
-  covariance *= dof / (dof + static_cast<double>(sample.cols()));
-  covariance.diagonal() = diagonal;
-  return covariance;
-}
 
 std::vector<MeasuredSeries> measured_series(const Study &study, bool whole) {
   std::vector<MeasuredSeries> out;
@@ -166,7 +167,8 @@ std::vector<Eigen::Index> keep_modelled(std::vector<MeasuredSeries> &series,
                               [](const MeasuredSeries &s) { return s.probed.quantities.empty(); }),
                series.end());
   if (series.empty())
-    throw UserError("no run of the study gave a figure that can be compared with what was measured");
+    throw UserError(
+        "no run of the study gave a figure that can be compared with what was measured");
   return used;
 }
 
@@ -209,6 +211,7 @@ std::vector<ProbedSeries> probed(const std::vector<MeasuredSeries> &series) {
 Evidence evidence_of(const Study &study, const std::vector<MeasuredSeries> &series,
                      const Eigen::MatrixXd &by_packing) {
   Evidence out;
+  const Eigen::VectorXd excess = excess_of(study, series, by_packing);
   for (const auto &s : series) {
     SeriesEvidence evidence;
     evidence.name = s.probed.name;
@@ -223,10 +226,10 @@ Evidence evidence_of(const Study &study, const std::vector<MeasuredSeries> &seri
     evidence.stated =
         s.stated.size() > 0
             ? s.stated
-            : pooled(by_packing.middleCols(evidence.first, evidence.count), s.replicates);
+            : specimen_covariance(by_packing.middleCols(evidence.first, evidence.count),
+                                  s.replicates, excess.segment(evidence.first, evidence.count));
     // Before others read it: a row that hardly scatters would count for more than any instrument.
-    evidence.stated.diagonal() =
-        evidence.stated.diagonal().cwiseMax(instrument * instrument);
+    evidence.stated.diagonal() = evidence.stated.diagonal().cwiseMax(instrument * instrument);
     evidence.simulated = covariance / static_cast<double>(by_packing.rows());
     for (const auto &q : s.probed.quantities)
       out.rows.push_back({evidence.test, evidence.name, q.part, q.name});

@@ -5,11 +5,11 @@
 // Method: a data folder's replicates give rows by the code that takes them from simulated curves; a
 //   row that any replicate lacks is left out. Without a folder the study's targets are the rows:
 //   their logarithms, with the sd stated. Specimens are taken to scatter as the simulation's
-//   packings do at the fitted point (measured, with the correlations drawn towards zero as far as
-//   few packings do not carry them), pooled with what the replicates scatter about their own mean,
-//   and at least that in each row, and at least 0.1 %, which no instrument is better than; the mean over P packings has a P-th of the packings' covariance.
+//   packings do at the fitted point (measured), and besides by what the replicates of a quantity
+//   scatter more in all its series (covariance.h), and at least 0.1 %, which no instrument is
+//   better than; the mean over P packings has a P-th of the packings' covariance.
 // Units: SI in; rows have none. Failure: UserError when nothing of the data can be compared.
-// Limits: with few packings the shape of the covariance is that of its diagonal.
+// Limits: an excess of one series alone is seen only as far as its own few specimens show it.
 #pragma once
 
 #include <map>
@@ -45,10 +45,6 @@ std::vector<std::string> not_modelled(const std::vector<MeasuredSeries> &series,
 // Leaves out quantities whose simulated rows (packings x rows) are not finite or do not scatter.
 std::vector<ProbedSeries> that_scatter(std::vector<ProbedSeries> series,
                                        const Eigen::MatrixXd &by_packing);
-
-// Covariance of samples x rows; off the diagonal drawn towards zero by n / (n + rows), because few
-// samples say little of it.
-Eigen::MatrixXd shrunk_covariance(const Eigen::MatrixXd &sample);
 
 std::vector<ProbedSeries> probed(const std::vector<MeasuredSeries> &series);
 

@@ -53,6 +53,30 @@ void StudyModel::rescale(const std::map<std::size_t, double> &switch_on) {
   }
 }
 
+std::unique_ptr<ForwardProber> StudyModel::engine_of(const std::string &test, int packings) {
+  std::vector<int> all(static_cast<std::size_t>(packings));
+  std::iota(all.begin(), all.end(), 0);
+  const auto prober_of = [&](const ProbedSeries &series) {
+    auto out = std::make_unique<ForwardProber>(expanded_, effects_, *forward_,
+                                               std::vector<ProbedSeries>{series}, all);
+    for (std::size_t k = 0; k < catalogue_.size(); ++k) out->rescale(k, catalogue_[k].switch_on);
+    out->set_progress(progress_);
+    return out;
+  };
+  const ModelPoint centre = emulated_->centre();
+  const auto bare = prober_of({test, test, {}});
+  const auto outcome = bare->curves(centre, 0).front();
+  if (!outcome.ok) return nullptr;
+  std::vector<std::string> responses;
+  for (const auto &[name, response] : study_.test(test).definition.responses)
+    responses.push_back(name);
+  ProbedSeries series{test, test, quantities_of(outcome.curve.names, responses)};
+  auto wide = prober_of(series);
+  const auto kept = that_scatter({series}, wide->by_packing(centre, all));
+  earlier_runs_ += bare->runs() + wide->runs();
+  return kept.empty() ? nullptr : prober_of(kept.front());
+}
+
 void StudyModel::forbid(const std::function<bool(const std::string &)> &whose) {
   for (auto &entry : catalogue_)
     if (whose(entry.name)) entry.lowest = entry.largest = 0;

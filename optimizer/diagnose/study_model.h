@@ -40,6 +40,10 @@ class StudyModel {
   // Effects that `whose` says stay known to the prober, but no diagnosis may name them.
   void forbid(const std::function<bool(const std::string &)> &whose);
 
+  // A prober of one test of the study with all rows that its curves give and that scatter over
+  // packings; null when there is none. The catalogue's switch-on sizes are those of now.
+  std::unique_ptr<ForwardProber> engine_of(const std::string &test, int packings);
+
   const Study &study() const { return study_; }
   const std::vector<EffectDefinition> &effects() const { return effects_; }
   const std::vector<EffectEntry> &catalogue() const { return catalogue_; }

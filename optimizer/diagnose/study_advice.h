@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Job: the last word on a diagnosis: a name that does not predict is not given alone, and what to
+//   measure next.
+// Method: a single name becomes a set with every effect that was tried when the series held out is
+//   worse with it, by 6.63 in chi squared, or lies beyond chance (3 sd of a chi squared) and is no
+//   better with it. A series that the effect does not touch takes no name away. For a set, the tests of the study that were not measured are tried for the one
+//   that separates it (further_tests.h); besides, the effects' own words.
+// Units: none. Failure: none.
+#pragma once
+
+#include "diagnose/study_diagnosis.h"
+
+namespace bondlab::diagnose {
+
+void give_not_alone(StudyDiagnosis &out);
+
+void advise_tests(StudyModel &model, const std::vector<MeasuredSeries> &measured,
+                  StudyDiagnosis &out);
+
+void advise_on(StudyDiagnosis &out);
+
+}  // namespace bondlab::diagnose
