@@ -7,6 +7,7 @@
 // Units: --size in the effect's own SI unit. Failure: exit status as in commands.h.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -48,8 +49,8 @@ std::vector<EffectDefinition> effects_from(const std::vector<std::string> &named
     for (auto &effect : read_effects(folder)) {
       for (const auto &other : effects)
         if (other.name == effect.name)
-          throw UserError(effect.place, "effect '" + effect.name + "' is also in " +
-                                            other.place.file);
+          throw UserError(effect.place,
+                          "effect '" + effect.name + "' is also in " + other.place.file);
       effects.push_back(std::move(effect));
     }
   return effects;
@@ -67,32 +68,61 @@ diagnose::ModelFactory engine_on(const Study &study, const fs::path &results, in
 
 void add_common(CLI::App &command, Common &common) {
   command.add_option("STUDY", common.study, "study file (TOML)")->required();
-  command.add_option("--effects", common.effects,
-                     "folder of effects, may be given again (default: those that came with BondLab)");
+  command.add_option(
+      "--effects", common.effects,
+      "folder of effects, may be given again (default: those that came with BondLab)");
   command.add_option("--jobs", common.jobs, "forward runs at a time")->check(CLI::PositiveNumber);
 }
 
 struct Diagnosing : Common {
   std::string data;
+  int rounds = 1;
   diagnose::StudyDiagnosisOptions options;
 };
+
+// Whether the model with what was named is another one to diagnose: an error of measuring is mended
+// in the data, and a set is not for a program to choose from.
+bool goes_on(const diagnose::StudyDiagnosis &result) {
+  const auto &d = result.diagnosis;
+  if (d.verdict != diagnose::Verdict::one && d.verdict != diagnose::Verdict::two) return false;
+  return std::all_of(d.effects.begin(), d.effects.end(), [&](const diagnose::NamedEffect &e) {
+    return result.effects[e.effect].scales_test.empty();
+  });
+}
 
 void run_diagnose(const Diagnosing &asked) {
   Study study = read_study(asked.study);
   check_response_functions(study);
   if (!asked.data.empty()) study.data = read_data_folder(asked.data);
   const auto effects = effects_from(asked.effects, {"effects"});
-  const fs::path out = results_directory(asked.out, study.name);
+  const fs::path first = results_directory(asked.out, study.name);
   catch_interrupts();
   ProgressLine line;
   diagnose::StudySinks sinks;
   sinks.progress = [&](const BatchProgress &progress) { line.show(progress); };
-  sinks.say = [](const std::string &line) { fmt::print("{}\n", line); };
-  const auto result = diagnose::diagnose_study(study, effects, engine_on(study, out, asked.jobs),
-                                               asked.options, sinks);
-  diagnose::write_diagnosis(study, result, out);
-  fmt::print("\n{}\npage: {}\n", diagnose::diagnosis_text(study, result),
-             (out / "diagnosis.html").string());
+  sinks.say = [](const std::string &line) {
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+  };
+  for (int round = 1;; ++round) {
+    const fs::path out = round == 1 ? first : first / fmt::format("round_{}", round);
+    const auto result = diagnose::diagnose_study(study, effects, engine_on(study, out, asked.jobs),
+                                                 asked.options, sinks);
+    const auto file = diagnose::write_diagnosis(study, result, out);
+    fmt::print("\n{}\npage: {}\n", diagnose::diagnosis_text(study, result),
+               (out / "diagnosis.html").string());
+    if (!goes_on(result)) return;
+    const std::string again = fmt::format("bondlab diagnose {}{}", file.string(),
+                                          asked.data.empty() ? "" : " --data " + asked.data);
+    if (round == asked.rounds) {
+      fmt::print("is anything left? {}\n", again);
+      return;
+    }
+    fmt::print("\nround {}, with what was named: {}\n", round + 1, again);
+    auto data = std::move(study.data);
+    study = read_study(file);
+    study.data = std::move(data);
+  }
 }
 
 struct Hiding : Common {
@@ -146,7 +176,8 @@ void run_trial_command(const Trying &asked) {
   diagnose::run_trial(
       set, laboratory, catalogue, outside,
       [&](const fs::path &folder) { return engine_on(laboratory, folder, asked.jobs); }, options,
-      say, [&](const diagnose::TrialCase &trial) {
+      say,
+      [&](const diagnose::TrialCase &trial) {
         done.push_back(trial);
         say(diagnose::trial_line(trial));
         diagnose::write_trial(done, options.out);
@@ -167,11 +198,19 @@ void add_diagnose(CLI::App &app) {
   command->add_option("--data", asked->data, "data folder instead of the study's own");
   command->add_option("--holdout", asked->options.holdout,
                       "series not used until the end, or none (default: the last of five or more)");
-  command->add_option("--packings", asked->options.packings, "packings that differences are taken on")
+  command
+      ->add_option("--packings", asked->options.packings, "packings that differences are taken on")
       ->check(CLI::Range(4, 100));
-  command->add_option("--scatter", asked->options.scatter, "packings of the model's mean and its scatter")
+  command
+      ->add_option("--scatter", asked->options.scatter,
+                   "packings of the model's mean and its scatter")
       ->check(CLI::Range(6, 1000));
   command->add_option("--seed", asked->options.seed, "of the null and the resamples");
+  command
+      ->add_option(
+          "--rounds", asked->rounds,
+          "diagnose the model with what was named again, until nothing is named, so many times")
+      ->check(CLI::Range(1, 9));
   command->callback([asked] { run_diagnose(*asked); });
 }
 

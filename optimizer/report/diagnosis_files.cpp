@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "base/write_file.h"
 #include "diagnose/model_with_effect.h"
+#include "report/diagnosis_pictures.h"
 #include "report/html.h"
 
 namespace bondlab::diagnose {
@@ -20,7 +21,9 @@ using nlohmann::json;
 
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
-std::string shown(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "-"; }
+std::string shown(double value) {
+  return std::isfinite(value) ? fmt::format("{:.3g}", value) : "-";
+}
 
 std::string sentence(const StudyDiagnosis &d) {
   switch (d.diagnosis.verdict) {
@@ -55,49 +58,6 @@ std::vector<SizedEffect> switched_on(const StudyDiagnosis &d) {
   return out;
 }
 
-const std::vector<double> *first_of(const Curve &c, const std::vector<std::string> &names) {
-  for (const auto &name : names)
-    if (c.has(name)) return &c.column(name);
-  return nullptr;
-}
-
-std::string polyline(const Curve &c, double x_most, double y_most, const char *style) {
-  const auto *x = first_of(c, {"strain_axial", "strain_platen", "displacement"});
-  const auto *y = first_of(c, {"axial_stress", "force_top"});
-  if (!x || !y) return "";
-  std::string points;
-  for (std::size_t i = 0; i < x->size(); ++i)
-    points += fmt::format("{:.1f},{:.1f} ", 40 + 420 * std::clamp((*x)[i] / x_most, 0.0, 1.0),
-                          260 - 240 * std::clamp((*y)[i] / y_most, 0.0, 1.0));
-  return fmt::format("<polyline fill=\"none\" {} points=\"{}\"/>", style, points);
-}
-
-std::string curve_picture(const ShownSeries &s) {
-  double x_most = 0, y_most = 0;
-  const auto widen = [&](const Curve &c) {
-    if (const auto *x = first_of(c, {"strain_axial", "strain_platen", "displacement"}))
-      for (const double v : *x) x_most = std::max(x_most, v);
-    if (const auto *y = first_of(c, {"axial_stress", "force_top"}))
-      for (const double v : *y) y_most = std::max(y_most, v);
-  };
-  for (const auto &c : s.measured) widen(c);
-  widen(s.before), widen(s.after);
-  if (!(x_most > 0) || !(y_most > 0)) return "";
-  std::string svg =
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 480 290\" width=\"480\">"
-      "<path d=\"M40 20V260H460\" stroke=\"#888\" fill=\"none\"/>";
-  for (const auto &c : s.measured)
-    svg += polyline(c, x_most, y_most, "stroke=\"#999\" stroke-width=\"1\"");
-  svg += polyline(s.before, x_most, y_most,
-                  "stroke=\"#c33\" stroke-width=\"2\" stroke-dasharray=\"6 3\"");
-  svg += polyline(s.after, x_most, y_most, "stroke=\"#17a\" stroke-width=\"2\"");
-  svg += fmt::format(
-      "<text x=\"460\" y=\"280\" text-anchor=\"end\" font-size=\"12\">strain or travel, to "
-      "{:.3g}</text><text x=\"44\" y=\"16\" font-size=\"12\">stress or force, to {:.3g}</text></svg>",
-      x_most, y_most);
-  return svg;
-}
-
 std::string residual_rows(const StudyDiagnosis &d) {
   HtmlTable table("Whitened residual by part of the curve",
                   {"series", "part", "quantity", ">before", ">after"});
@@ -113,9 +73,29 @@ std::string residual_rows(const StudyDiagnosis &d) {
   return table.html();
 }
 
+// What was tried, best first: an effect or a pair, and how far it is behind.
+std::vector<std::string> tried_lines(const StudyDiagnosis &d) {
+  auto tried = d.diagnosis.tried;
+  std::stable_sort(tried.begin(), tried.end(),
+                   [](const Tried &a, const Tried &b) { return a.behind < b.behind; });
+  std::vector<std::string> out;
+  for (const auto &one : tried) {
+    std::string names;
+    for (std::size_t i = 0; i < one.effects.size(); ++i) {
+      const auto &entry = d.catalogue[one.effects[i]];
+      names += fmt::format("{}{} {}", i > 0 ? ", " : "", entry.name,
+                           format_quantity(one.amplitudes[i] * entry.switch_on, entry.unit, 3));
+    }
+    const std::string line = fmt::format("{:>8.1f}  {}", one.behind, names);
+    if (std::find(out.begin(), out.end(), line) == out.end()) out.push_back(line);
+  }
+  if (out.size() > 12) out.resize(12);
+  return out;
+}
+
 }  // namespace
 
-std::string diagnosis_json(const StudyDiagnosis &d) {
+std::string diagnosis_json(const Study &study, const StudyDiagnosis &d) {
   json out;
   out["verdict"] = to_string(d.diagnosis.verdict);
   out["effects"] = json::array();
@@ -135,6 +115,14 @@ std::string diagnosis_json(const StudyDiagnosis &d) {
                 {"holdout_after", number(d.gap.holdout_after)},
                 {"placebo_after", number(d.gap.placebo_after)},
                 {"noise_floor", number(d.gap.noise_floor)}};
+  out["parameters"] = json::array();
+  for (std::size_t i = 0; i < study.parameters.size(); ++i)
+    out["parameters"].push_back({{"name", study.parameters[i].name},
+                                 {"unit", "SI"},
+                                 {"before", number(d.parameters_before[i])},
+                                 {"sd_before", number(d.sd_before[i])},
+                                 {"after", number(d.parameters_after[i])},
+                                 {"sd_after", number(d.sd_after[i])}});
   if (d.cross.before > 0)
     out["held_out_in_turn"] = {{"before", number(d.cross.before)},
                                {"after", number(d.cross.after)},
@@ -156,6 +144,9 @@ std::string diagnosis_text(const Study &study, const StudyDiagnosis &d) {
   if (g.where.empty()) out += "  nowhere beyond chance\n";
   for (std::size_t i = 0; i < std::min<std::size_t>(g.where.size(), 8); ++i)
     out += fmt::format("  {:<48} {:5.1f}\n", g.where[i].name, g.where[i].score);
+  const auto tried = tried_lines(d);
+  if (!tried.empty()) out += "\nexplanations refitted, chi squared behind the best:\n";
+  for (const auto &line : tried) out += "  " + line + "\n";
   out += "\ngap, noise units a row                before   after\n";
   for (const auto &s : d.by_series)
     out += fmt::format("  {:<34} {:>7}  {:>7}{}\n", s.name, shown(s.before), shown(s.after),
@@ -166,9 +157,10 @@ std::string diagnosis_text(const Study &study, const StudyDiagnosis &d) {
   out += fmt::format("  gain in chi squared: {} predicted, {} realised, {} by the engine itself\n",
                      shown(g.predicted_gain), shown(g.realised_gain), shown(d.confirmed_gain));
   if (d.cross.before > d.cross.floor && d.cross.floor > 0)
-    out += fmt::format("  every series held out in turn: {:.0f} % of the way to the noise floor "
-                       "closed, by a placebo {:.0f} %\n",
-                       100 * d.cross.closed(), 100 * d.cross.closed_by_placebo());
+    out += fmt::format(
+        "  every series held out in turn: {:.0f} % of the way to the noise floor "
+        "closed, by a placebo {:.0f} %\n",
+        100 * d.cross.closed(), 100 * d.cross.closed_by_placebo());
   out += "\nparameters                      before                     after\n";
   for (std::size_t i = 0; i < study.parameters.size(); ++i) {
     const auto &p = study.parameters[i];
@@ -203,6 +195,13 @@ std::string diagnosis_page(const Study &study, const StudyDiagnosis &d) {
   std::vector<std::string> lines;
   for (const auto &e : d.diagnosis.effects) lines.push_back(effect_line(d, e));
   if (!lines.empty()) body += html_list(lines);
+  const auto where = where_picture(d);
+  if (!where.empty())
+    body += "<h2>Where it shows</h2>" +
+            html_paragraph(
+                "Residual of each part of each curve in noise units; red: measured "
+                "above the model, blue: below. Beyond 3 or so is not chance.") +
+            where;
   for (const auto &s : d.shown) {
     const auto picture = curve_picture(s);
     if (picture.empty()) continue;
@@ -220,17 +219,19 @@ std::string diagnosis_page(const Study &study, const StudyDiagnosis &d) {
          body + "</body></html>\n";
 }
 
-void write_diagnosis(const Study &study, const StudyDiagnosis &d,
-                     const std::filesystem::path &out) {
+std::filesystem::path write_diagnosis(const Study &study, const StudyDiagnosis &d,
+                                      const std::filesystem::path &out) {
   make_folder(out);
-  write_file(out / "diagnosis.json", diagnosis_json(d));
+  write_file(out / "diagnosis.json", diagnosis_json(study, d));
   write_file(out / "diagnosis.txt", diagnosis_text(study, d));
   write_file(out / "diagnosis.html", diagnosis_page(study, d));
   const auto effects = switched_on(d);
-  if (effects.empty()) return;
+  if (effects.empty()) return {};
   const auto changed = study_with_effects(study, effects, d.parameters_after);
-  write_file(out / "model_with_effect.toml", changed);
   write_file(out / "model.diff", readable_diff(study.source_text, changed));
+  const auto file = out / "model_with_effect.toml";
+  write_file(file, moved_study(changed, study.file, out));
+  return file;
 }
 
 }  // namespace bondlab::diagnose

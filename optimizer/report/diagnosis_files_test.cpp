@@ -10,6 +10,7 @@
 #include "base/table_file.h"
 #include "base/test_folder.h"
 #include "diagnose/forward_prober.h"
+#include "report/diagnosis_pictures.h"
 
 namespace bondlab::diagnose {
 namespace {
@@ -53,9 +54,9 @@ class DiagnosisFiles : public ::testing::Test {
 };
 
 TEST_F(DiagnosisFiles, TheJsonHasExactlyTheKeysOfTheWorkflow) {
-  const json j = json::parse(diagnosis_json(d));
+  const json j = json::parse(diagnosis_json(study, d));
   EXPECT_EQ(keys(j),
-            (std::set<std::string>{"verdict", "effects", "where", "advice", "gap"}));
+            (std::set<std::string>{"verdict", "effects", "where", "advice", "gap", "parameters"}));
   EXPECT_EQ(keys(j["gap"]), (std::set<std::string>{"before", "after", "holdout_before",
                                                    "holdout_after", "placebo_after",
                                                    "noise_floor"}));
@@ -65,7 +66,7 @@ TEST_F(DiagnosisFiles, TheJsonHasExactlyTheKeysOfTheWorkflow) {
 }
 
 TEST_F(DiagnosisFiles, TheJsonHasTheFiguresOfTheDiagnosis) {
-  const json j = json::parse(diagnosis_json(d));
+  const json j = json::parse(diagnosis_json(study, d));
   EXPECT_EQ(j["verdict"], to_string(Verdict::one));
   const json &e = j["effects"][0];
   EXPECT_EQ(e["name"], "bond_gap");
@@ -82,7 +83,7 @@ TEST_F(DiagnosisFiles, TheJsonHasTheFiguresOfTheDiagnosis) {
 TEST_F(DiagnosisFiles, WhatCouldNotBeHadIsNullAndKeepsItsKey) {
   d.gap.holdout_before = d.gap.holdout_after = none;
   d.diagnosis.effects[0].margin = std::numeric_limits<double>::infinity();
-  const json j = json::parse(diagnosis_json(d));
+  const json j = json::parse(diagnosis_json(study, d));
   EXPECT_TRUE(j["gap"].at("holdout_before").is_null());
   EXPECT_TRUE(j["gap"].at("holdout_after").is_null());
   EXPECT_TRUE(j["effects"][0].at("margin").is_null());
@@ -97,7 +98,7 @@ TEST_F(DiagnosisFiles, ANamedEffectComesWithTheStudyThatHasIt) {
               1.25 * study.test("ucs").variables.at("gap").number, 1e-12);
   EXPECT_NEAR(*changed.parameters[0].start, 26e9, 1e3);
   EXPECT_NE(read_text_file(out / "model.diff").find("+ start = \"26 GPa\""), std::string::npos);
-  EXPECT_EQ(read_text_file(out / "diagnosis.json"), diagnosis_json(d));
+  EXPECT_EQ(read_text_file(out / "diagnosis.json"), diagnosis_json(study, d));
   EXPECT_NE(read_text_file(out / "diagnosis.txt").find("bond_gap"), std::string::npos);
 }
 
@@ -117,6 +118,31 @@ TEST_F(DiagnosisFiles, ThePageEscapesWhatItIsGiven) {
   const auto page = diagnosis_page(study, d);
   EXPECT_EQ(page.find("<the>"), std::string::npos);
   EXPECT_NE(page.find("&lt;the&gt; number of bonds &amp; write"), std::string::npos);
+}
+
+TEST_F(DiagnosisFiles, WhereItShowsIsDrawnCellByCellBeforeAndAfter) {
+  EXPECT_EQ(where_picture(d), "");
+  d.rows = {{"uniaxial_compression", "ucs & more", CurvePart::peak, "log peak"},
+            {"uniaxial_compression", "ucs & more", CurvePart::peak, "other"},
+            {"brazilian", "brazilian", CurvePart::slope, "compliance"}};
+  d.diagnosis.before.residual = Eigen::Vector3d(3, 5, -2);
+  d.diagnosis.after.residual = Eigen::Vector3d(0.5, -0.5, 0);
+  const auto svg = where_picture(d);
+  EXPECT_NE(svg.find("+5.7"), std::string::npos) << "8 over the root of 2: " << svg;
+  EXPECT_NE(svg.find("-2.0"), std::string::npos) << svg;
+  EXPECT_NE(svg.find("+0.0"), std::string::npos) << svg;
+  EXPECT_NE(svg.find("ucs &amp; more"), std::string::npos) << svg;
+  EXPECT_LT(svg.find(">slope<"), svg.find(">peak<")) << "parts in the order of a curve";
+  EXPECT_NE(diagnosis_page(study, d).find(svg), std::string::npos);
+}
+
+TEST_F(DiagnosisFiles, WhatWasTriedIsListedBestFirst) {
+  const auto other = named == 0 ? 1u : 0u;
+  d.diagnosis.tried = {{{other}, {1.0}, 12.5}, {{named}, {2.0}, 0}};
+  const auto text = diagnosis_text(study, d);
+  const auto list = text.find("explanations refitted");
+  ASSERT_NE(list, std::string::npos);
+  EXPECT_LT(text.find("0.0  bond_gap", list), text.find("12.5  " + d.catalogue[other].name, list));
 }
 
 }  // namespace

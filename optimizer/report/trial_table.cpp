@@ -104,6 +104,8 @@ void write_trial(const std::vector<TrialCase> &cases, const std::filesystem::pat
     one["verdict"] = to_string(t.verdict), one["judgement"] = to_string(t.judgement);
     one["named"] = t.named, one["named_sizes"] = t.named_sizes;
     one["margin"] = finite(t.margin), one["p_trace"] = t.p_trace, one["p_omnibus"] = t.p_omnibus;
+    one["trace"] = {{"score", t.trace}, {"alarm", t.trace_alarm}};
+    one["whole"] = {{"score", t.omnibus}, {"alarm", t.omnibus_alarm}};
     one["predicted_gain"] = t.predicted_gain, one["confirmed_gain"] = finite(t.confirmed_gain);
     one["held_out"] = {{"before", t.cross.before},
                        {"after", t.cross.after},
