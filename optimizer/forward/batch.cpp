@@ -204,6 +204,7 @@ void EngineForwardModel::Batch::look_up(Job &job) {
       job.outcome.from_store = true;
       job.outcome.curve = std::move(verdict.curve);
       job.outcome.wall_seconds = run.wall_seconds;
+      job.outcome.cost = measured_cost(settings_.results / run.directory);
       job.stage = Stage::settled;
       return;
     }
@@ -302,6 +303,7 @@ void EngineForwardModel::Batch::finish(Job &job) {
   job.history.state = "done";
   job.history.finished = utc_now();
   job.history.wall_seconds = end.wall_seconds;
+  job.history.cost = job.outcome.cost = measured_cost(folder);
   write_manifest(folder, settings_.engine, job.plan, job.key, job.history);
   thin_out(folder, job.plan);
   store_.finish_done(job.id, end.wall_seconds);

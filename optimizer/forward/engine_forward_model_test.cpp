@@ -50,6 +50,21 @@ TEST(EngineForwardModel, AFinishedRunIsNeverRepeated) {
   EXPECT_EQ(second[1].wall_seconds, first[0].wall_seconds);
 }
 
+TEST(EngineForwardModel, ARunKeepsWhatItCost) {
+  FakeEngine fake;
+  for (const bool from_store : {false, true}) {
+    const ForwardOutcome outcome = fake.run({30})[0];
+    ASSERT_EQ(outcome.from_store, from_store);
+    ASSERT_TRUE(outcome.cost);
+    EXPECT_EQ(outcome.cost->steps, 2000);
+    EXPECT_EQ(outcome.cost->bonds, 300);
+    const std::string manifest =
+        read_text_file(fs::path(outcome.run_directory) / "manifest.json");
+    EXPECT_NE(manifest.find("\"cost\": {\n  \"loop_seconds\": 0.6"), std::string::npos) << manifest;
+    EXPECT_NE(manifest.find("\"ns_per_bond_and_step\": 1000.0"), std::string::npos) << manifest;
+  }
+}
+
 TEST(EngineForwardModel, AFinishedRunWhoseFilesAreGoneIsDoneAgain) {
   FakeEngine fake;
   const auto first = fake.run({30});

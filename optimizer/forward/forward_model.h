@@ -14,11 +14,13 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "forward/curve.h"
+#include "forward/measured_cost.h"
 
 namespace bondlab {
 
@@ -63,6 +65,7 @@ struct ForwardOutcome {
   std::string run_directory;
   std::string replay_command;
   double wall_seconds = 0;
+  std::optional<MeasuredCost> cost;  // of a run of the engine that came to its end
   bool from_store = false;
   std::map<std::string, double> deck_variables;  // every numeric deck variable of the run (fixed,
                                                  // set, specimen's dimensions), SI

@@ -156,6 +156,15 @@ void write_manifest(const fs::path &folder, const Engine &engine, const RunPlan 
     manifest["finished"] = history.finished;
     manifest["wall_seconds"] = history.wall_seconds;
   }
+  if (history.cost) {
+    const MeasuredCost &cost = *history.cost;
+    manifest["cost"] = {{"loop_seconds", cost.loop_seconds},
+                        {"steps", cost.steps},
+                        {"particles", cost.particles},
+                        {"bonds", cost.bonds},
+                        {"ranks", cost.ranks},
+                        {"ns_per_bond_and_step", cost.ns_per_bond_and_step()}};
+  }
   write_file(folder / kManifest, manifest.dump(1) + "\n");
 }
 

@@ -3,19 +3,22 @@
 // Job: a run's own folder: made before it starts, described by manifest.json and replay.sh, thinned
 // out when it is done. Method: runs/NUMBER-TEST-KEY below the results folder, with -2, -3 ... for
 // later attempts; never shared by two runs.
-//   After success only the outputs of test.toml, the log, the manifest and the replay script stay;
+//   After success only the outputs of test.toml, the frames that `shots` asked for, the log, the
+//   manifest and the replay script stay;
 //   a failed run keeps all.
 // Units: SI in manifest.json's "si", the deck's own in "variables". Failure: UserError (disk full,
 // no permission).
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "forward/engine.h"
 #include "forward/failure.h"
 #include "forward/launcher.h"
+#include "forward/measured_cost.h"
 #include "forward/run_plan.h"
 
 namespace bondlab {
@@ -37,6 +40,7 @@ struct RunHistory {
   double wall_seconds = 0;
   FailureCause cause = FailureCause::none;
   std::string message;
+  std::optional<MeasuredCost> cost;
 };
 void write_manifest(const std::filesystem::path &folder, const Engine &engine, const RunPlan &plan,
                     const RunKey &key, const RunHistory &history);

@@ -274,7 +274,9 @@ inline ReportInput make(const std::filesystem::path &directory, double spacing =
     ReportRun run;
     run.id = fmt::format("{:08x}", 0x4f2a0000u + 7919u * static_cast<unsigned>(i)),
     run.test = i % 2 ? "split" : "ucs";
-    run.wall_seconds = 18 + 0.1 * i, run.directory = "runs/" + run.test + "-" + run.id;
+    run.wall_seconds = 18 + 0.1 * i;
+    run.steps = 14900, run.particles = 573, run.bonds = 1226, run.bond_step_ns = 31 + i % 2;
+    run.directory = "runs/" + run.test + "-" + run.id;
     if (i == 11)
       run.ok = false, run.cause = "lost_atoms",
       run.message = "Lost atoms: original 812 current 811 (in.brazilian, step 41200).";

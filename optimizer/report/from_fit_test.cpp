@@ -155,7 +155,8 @@ TEST(ResultFolder, ReadsTheRunsThatEnded) {
       "runs/10-split-b/manifest.json",
       R"({"id": 10, "state": "failed", "test": "split", "packing": 2, "cause": "timeout", "message": "slow", "wall_seconds": 120.5})");
   folder.write("runs/9-ucs-a/manifest.json",
-               R"({"id": 9, "state": "done", "test": "ucs", "packing": 0, "wall_seconds": 20.25})");
+               R"({"id": 9, "state": "done", "test": "ucs", "packing": 0, "wall_seconds": 20.25,
+                   "cost": {"loop_seconds": 19, "steps": 4000, "particles": 573, "bonds": 1226, "ranks": 1, "ns_per_bond_and_step": 31.5}})");
   folder.write("runs/11-ucs-c/manifest.json",
                R"({"id": 11, "state": "running", "test": "ucs", "packing": 0})");
   folder.write("runs/12-ucs-d/manifest.json", "{\"id\": 12, \"sta");
@@ -168,6 +169,10 @@ TEST(ResultFolder, ReadsTheRunsThatEnded) {
   EXPECT_TRUE(runs[0].ok);
   EXPECT_EQ(runs[0].wall_seconds, 20.25);
   EXPECT_EQ(runs[0].directory, "runs/9-ucs-a");
+  EXPECT_EQ(runs[0].steps, 4000);
+  EXPECT_EQ(runs[0].bonds, 1226);
+  EXPECT_EQ(runs[0].bond_step_ns, 31.5);
+  EXPECT_TRUE(std::isnan(runs[1].bond_step_ns)) << "a manifest without cost";
   EXPECT_EQ(runs[1].id, "10");
   EXPECT_FALSE(runs[1].ok);
   EXPECT_EQ(runs[1].cause, "timeout");

@@ -154,8 +154,9 @@ std::string runs_section(const ReportInput &input) {
   if (!input.fits.empty()) html += fits.html();
 
   struct Sum {
-    long runs = 0, failed = 0;
-    double seconds = 0;
+    long runs = 0, failed = 0, measured = 0;
+    double seconds = 0, steps = 0, particles = 0, bonds = 0, bond_step_ns = 0;
+    double mean(double sum) const { return measured ? sum / static_cast<double>(measured) : no_number; }
   };
   std::map<std::string, Sum> tests;
   long failed = 0;
@@ -164,14 +165,24 @@ std::string runs_section(const ReportInput &input) {
     ++sum.runs;
     sum.failed += !run.ok, failed += !run.ok;
     if (std::isfinite(run.wall_seconds)) sum.seconds += run.wall_seconds;
+    if (!std::isfinite(run.bond_step_ns)) continue;
+    ++sum.measured;
+    sum.steps += run.steps, sum.particles += run.particles, sum.bonds += run.bonds;
+    sum.bond_step_ns += run.bond_step_ns;
   }
   if (!tests.empty()) {
-    HtmlTable table("By test", {"Test", ">Runs", ">Failed", ">Seconds together", ">Seconds a run"});
+    HtmlTable table("By test; particles, bonds, steps and the time of a bond and step (ns) are means over the runs.",
+                    {"Test", ">Runs", ">Failed", ">Seconds together", ">Seconds a run", ">Particles",
+                     ">Bonds", ">Steps", ">ns"});
     for (const auto &[name, sum] : tests) {
       const double mean = sum.seconds / static_cast<double>(sum.runs);
       table.row({html_text(name), count_text(sum.runs), count_text(sum.failed),
                  html_number(sum.seconds, significant_full(sum.seconds, 3)),
-                 html_number(mean, significant_full(mean, 3))});
+                 html_number(mean, significant_full(mean, 3)),
+                 html_number(sum.mean(sum.particles), significant_full(sum.mean(sum.particles), 4)),
+                 html_number(sum.mean(sum.bonds), significant_full(sum.mean(sum.bonds), 4)),
+                 html_number(sum.mean(sum.steps), significant_full(sum.mean(sum.steps), 4)),
+                 html_number(sum.mean(sum.bond_step_ns), significant_full(sum.mean(sum.bond_step_ns), 3))});
     }
     html += table.html();
   }

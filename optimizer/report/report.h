@@ -161,6 +161,8 @@ struct ReportRun {
   bool ok = true;
   std::string cause, message;  // of a failure
   double wall_seconds = no_number;
+  double steps = no_number, particles = no_number, bonds = no_number,
+         bond_step_ns = no_number;  // from the run's log (forward/measured_cost.h)
   std::string directory;
   std::string replay;
 };

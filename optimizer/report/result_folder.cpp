@@ -78,6 +78,10 @@ std::vector<ReportRun> read_ledger(const fs::path &directory) {
       run.ok = state == "done";
       run.cause = manifest->value("cause", ""), run.message = manifest->value("message", "");
       run.wall_seconds = manifest->value("wall_seconds", no_number);
+      if (const auto cost = manifest->find("cost"); cost != manifest->end()) {
+        run.steps = cost->at("steps"), run.particles = cost->at("particles");
+        run.bonds = cost->at("bonds"), run.bond_step_ns = cost->at("ns_per_bond_and_step");
+      }
       run.directory = "runs/" + entry.path().filename().string();
       found.emplace_back(number, std::move(run));
     } catch (const Json::exception &) {  // another program's file

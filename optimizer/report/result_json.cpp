@@ -26,6 +26,10 @@ class Writer {
   void operator()(const char *key, T &value) {
     json_[key] = to(value);
   }
+  template <class T>
+  void since_later(const char *key, T &value) {
+    (*this)(key, value);
+  }
   template <class F>
   void group(const char *key, F &&body) {
     Json inner = Json::object();
@@ -70,6 +74,11 @@ class Reader {
   template <class T>
   void operator()(const char *key, T &value) {
     get(member(key), value, where_ + key);
+  }
+  // A member that results written before it was thought of don't have.
+  template <class T>
+  void since_later(const char *key, T &value) {
+    if (json_.contains(key)) (*this)(key, value);
   }
   template <class F>
   void group(const char *key, F &&body) {
@@ -206,6 +215,8 @@ void fields(A &a, ReportRun &r) {
   a("id", r.id), a("test", r.test), a("packing", r.packing), a("ok", r.ok), a("cause", r.cause);
   a("message", r.message), a("wall_seconds", r.wall_seconds), a("directory", r.directory);
   a("replay", r.replay);
+  a.since_later("steps", r.steps), a.since_later("particles", r.particles);
+  a.since_later("bonds", r.bonds), a.since_later("ns_per_bond_and_step", r.bond_step_ns);
 }
 
 template <class A>

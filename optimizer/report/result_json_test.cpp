@@ -65,6 +65,16 @@ TEST(ResultJson, ReadsBackToTheSameBits) {
   EXPECT_EQ(again.measured_curves[0].columns[1][1], 44e6);
 }
 
+TEST(ResultJson, ReadsResultsFromBeforeRunsHadACost) {
+  ReportInput input;
+  input.ledger.emplace_back();
+  input.ledger[0].bond_step_ns = 31.5;
+  Json json = Json::parse(to_json(input));
+  EXPECT_EQ(from_json(json.dump(), "result.json").ledger[0].bond_step_ns, 31.5);
+  json["ledger"][0].erase("ns_per_bond_and_step");
+  EXPECT_TRUE(std::isnan(from_json(json.dump(), "result.json").ledger[0].bond_step_ns));
+}
+
 TEST(ResultJson, WritesNoNumberAsNull) {
   ReportInput input;
   input.fits.emplace_back();

@@ -13,7 +13,8 @@ done
 note() { if [ -n "$FAKE_LEDGER" ]; then echo "$1 $BONDLAB_RUN_KEY" >>"$FAKE_LEDGER"; fi; }
 head() { printf '# bondlab-curve 1\n# names: step\ttime\taxial_stress\n# units: 1\ts\tPa\n0\t0\t0\n' >curve.tsv; }
 rows() { printf '10\t1e-6\t%s\n20\t2e-6\t5\n' "$value" >>curve.tsv; }
-good() { head; rows; printf '# complete: stop_after_peak\n' >>curve.tsv; note end; }
+loop() { printf '  300 bonds installed, 3.000 a particle\nLoop time of 0.6 on 1 procs for 2000 steps with 100 atoms\n' >>"$log"; }
+good() { head; rows; loop; printf '# complete: stop_after_peak\n' >>curve.tsv; note end; }
 note start
 echo "LIGGGHTS (fake)" >"$log"
 cat >input.txt
