@@ -44,6 +44,7 @@ void show(const Options &options) {
   for (std::string word; words >> word;) read.columns.push_back(word);
   ViewOutput output;
   output.plane = options.plane;
+  output.bond_columns = read.columns;
   output.png = options.png;
   output.paraview = !options.no_paraview;
   const std::filesystem::path out =

@@ -136,6 +136,13 @@ std::vector<EndParticle> read_particles(const std::filesystem::path &file) {
     };
     const std::size_t id = index_of("id"), type = index_of("type"), radius = index_of("radius"),
                       x = index_of("x"), y = index_of("y"), z = index_of("z");
+    std::array<std::size_t, 6> stress{};
+    bool has_stress = true;
+    for (std::size_t k = 0; k < 6; ++k) {
+      const auto at = std::find(names.begin(), names.end(), "c_stress[" + std::to_string(k + 1) + "]");
+      has_stress = has_stress && at != names.end();
+      stress[k] = static_cast<std::size_t>(at - names.begin());
+    }
     found = true;
     particles.clear();  // only the last frame counts
     particles.reserve(static_cast<std::size_t>(count));
@@ -160,7 +167,9 @@ std::vector<EndParticle> read_particles(const std::filesystem::path &file) {
         fail(std::to_string(values.size()) + " numbers in a row of " +
              std::to_string(names.size()) + " columns");
       particles.push_back({static_cast<int>(values[id]), static_cast<int>(values[type]),
-                           values[radius], values[x], values[y], values[z]});
+                           values[radius], values[x], values[y], values[z], {}, has_stress});
+      for (std::size_t k = 0; has_stress && k < 6; ++k)
+        particles.back().stress[k] = values[stress[k]];
     }
   }
   if (!found)

@@ -9,6 +9,7 @@
 // file:line:column.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -41,6 +42,8 @@ struct BrokenBond {
 struct EndParticle {
   int id = 0, type = 0;
   double radius = 0, x = 0, y = 0, z = 0;
+  std::array<double, 6> stress{};  // Pa, xx yy zz xy xz yz; where the dump has c_stress[1] to [6]
+  bool has_stress = false;
 };
 
 Curve read_curve(const std::filesystem::path &file);

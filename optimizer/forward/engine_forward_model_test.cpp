@@ -105,7 +105,7 @@ TEST(EngineForwardModel, SuccessKeepsOnlyTheResults) {
   for (const auto &entry : fs::directory_iterator(folder))
     names.insert(entry.path().filename().string());
   EXPECT_EQ(names, (std::set<std::string>{"curve.tsv", "kept.txt", "log.bondlab", "manifest.json",
-                                          "replay.sh"}));
+                                          "particles_2000.txt", "replay.sh"}));
 }
 
 TEST(EngineForwardModel, TheRunKnowsItsIdKeyAndSeedAndHasNoInput) {

@@ -8,6 +8,7 @@
 
 #include "base/units.h"
 #include "base/write_file.h"
+#include "forward/frame_name.h"
 
 namespace bondlab {
 
@@ -192,7 +193,8 @@ void thin_out(const fs::path &folder, const RunPlan &plan) {
   std::error_code ignored;
   std::vector<fs::path> removed;
   for (const fs::directory_entry &entry : fs::directory_iterator(folder, ignored))
-    if (std::find(kept.begin(), kept.end(), entry.path().filename().string()) == kept.end())
+    if (std::find(kept.begin(), kept.end(), entry.path().filename().string()) == kept.end() &&
+        !is_frame(entry.path().filename().string()))
       removed.push_back(entry.path());
   for (const fs::path &path : removed) fs::remove_all(path, ignored);
 }

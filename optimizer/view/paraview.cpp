@@ -9,7 +9,8 @@ VtpData particle_data(const RunView &run) {
   VtpData data;
   VtpArray id{"id", 1, true, {}}, type{"type", 1, true, {}}, radius{"radius_m", 1, false, {}},
       diameter{"diameter_m", 1, false, {}}, moved{"displacement_m", 3, false, {}},
-      broken{"bonds_lost", 1, true, {}}, fragment{"fragment", 1, true, {}};
+      broken{"bonds_lost", 1, true, {}}, fragment{"fragment", 1, true, {}},
+      stress{"stress_Pa", 9, false, {}};
   for (const ViewParticle &p : run.particles) {
     data.points.insert(data.points.end(), p.end.begin(), p.end.end());
     id.values.push_back(p.id);
@@ -19,9 +20,11 @@ VtpData particle_data(const RunView &run) {
     for (std::size_t k = 0; k < 3; ++k) moved.values.push_back(p.end[k] - p.start[k]);
     broken.values.push_back(p.broken);
     fragment.values.push_back(p.fragment);
+    for (const std::size_t k : {0, 3, 4, 3, 1, 5, 4, 5, 2}) stress.values.push_back(p.stress[k]);
   }
   data.point_data = {id, type, radius, diameter, broken, fragment};
   if (run.has_start) data.point_data.push_back(moved);
+  if (run.has_stress) data.point_data.push_back(stress);
   return data;
 }
 

@@ -3,9 +3,9 @@
 // Job: a run as two files for ParaView: particles.vtp (points) and bonds.vtp (lines).
 // Method: particles at the end of the run with id, radius, diameter, displacement, bonds lost and
 //   fragment; bonds between the same points with state, mode, time of breaking and, where they were
-//   dumped, forces. Glyphs: Sphere, Scale Array diameter (ParaView's sphere has the diameter 1).
+//   dumped, forces; of frames that have it the stress of each particle as a 3 x 3 tensor. Glyphs: Sphere, Scale Array diameter (ParaView's sphere has the diameter 1).
 // Units: SI; in the arrays' names where they aren't plain: break_time_s, normal_force_N.
-// Failure: none. Limits: one state, the end; -1 where there is nothing to say (the fragment when
+// Failure: none. Limits: the state that the run is given in (its end, or a frame: frames.h); -1 where there is nothing to say (the fragment when
 // the
 //   bonds aren't known, the time of a bond that holds).
 #pragma once

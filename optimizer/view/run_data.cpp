@@ -138,36 +138,6 @@ fs::path newest_bond_file(const fs::path &folder) {
   return newest;
 }
 
-void read_forces(RunView &run, const fs::path &file, const LogFacts &log,
-                 const std::vector<std::string> &columns) {
-  const LocalDump dump = read_local_dump(file, log.text, columns);
-  const int id1 = dump.column("id1"), id2 = dump.column("id2"), fn = dump.column("fn"),
-            shear = dump.column("fs");
-  if (id1 < 0 || id2 < 0 || fn < 0) {
-    run.missing.push_back("No force chains: " + file.filename().string() + " has " +
-                          join(dump.names) + ", but not id1, id2 and fn.");
-    return;
-  }
-  const std::unordered_map<int, int> index = index_by_id(run);
-  for (const std::vector<double> &row : dump.rows) {
-    const auto a = index.find(static_cast<int>(row[static_cast<std::size_t>(id1)])),
-               b = index.find(static_cast<int>(row[static_cast<std::size_t>(id2)]));
-    if (a == index.end() || b == index.end()) continue;
-    run.forces.push_back({std::min(a->second, b->second), std::max(a->second, b->second),
-                          row[static_cast<std::size_t>(fn)],
-                          shear < 0 ? 0 : row[static_cast<std::size_t>(shear)]});
-  }
-  run.has_forces = true;
-  run.force_step = dump.step;
-  const fs::path then = run.folder / ("particles_" + std::to_string(dump.step) + ".txt");
-  if (!fs::is_regular_file(then)) return;
-  const Places places = places_of(read_particles(then));
-  for (const ViewParticle &p : run.particles) {
-    const auto at = places.find(p.id);
-    run.force_places.push_back(at == places.end() ? p.end : at->second);
-  }
-}
-
 }  // namespace
 
 std::size_t RunView::broken(BondState state) const {
@@ -207,6 +177,7 @@ void find_bonds(RunView &run, const std::vector<BrokenBond> &events) {
     ViewBond &bond = bond_of(a->second, b->second);
     bond.state = event.mode == "shear" ? BondState::shear : BondState::tension;
     bond.time = event.time;
+    bond.step = event.step;
     bond.place = {event.x, event.y, event.z};
   }
 }
@@ -248,6 +219,35 @@ void find_fragments(RunView &run) {
     run.particles[i].fragment = rank[static_cast<std::size_t>(clusters.label[i])];
 }
 
+void read_forces(RunView &run, const fs::path &file, const std::vector<std::string> &columns) {
+  const LocalDump dump = read_local_dump(file, read_log(run.folder).text, columns);
+  const int id1 = dump.column("id1"), id2 = dump.column("id2"), fn = dump.column("fn"),
+            shear = dump.column("fs");
+  if (id1 < 0 || id2 < 0 || fn < 0) {
+    run.missing.push_back("No force chains: " + file.filename().string() + " has " +
+                          join(dump.names) + ", but not id1, id2 and fn.");
+    return;
+  }
+  const std::unordered_map<int, int> index = index_by_id(run);
+  for (const std::vector<double> &row : dump.rows) {
+    const auto a = index.find(static_cast<int>(row[static_cast<std::size_t>(id1)])),
+               b = index.find(static_cast<int>(row[static_cast<std::size_t>(id2)]));
+    if (a == index.end() || b == index.end()) continue;
+    run.forces.push_back({std::min(a->second, b->second), std::max(a->second, b->second),
+                          row[static_cast<std::size_t>(fn)],
+                          shear < 0 ? 0 : row[static_cast<std::size_t>(shear)]});
+  }
+  run.has_forces = true;
+  run.force_step = dump.step;
+  const fs::path then = run.folder / ("particles_" + std::to_string(dump.step) + ".txt");
+  if (!fs::is_regular_file(then)) return;
+  const Places places = places_of(read_particles(then));
+  for (const ViewParticle &p : run.particles) {
+    const auto at = places.find(p.id);
+    run.force_places.push_back(at == places.end() ? p.end : at->second);
+  }
+}
+
 RunView read_run(const fs::path &folder, const ViewOptions &options) {
   if (!fs::is_directory(folder))
     throw UserError("there is no folder '" + folder.string() + "' (allowed: the folder of a run)");
@@ -270,6 +270,8 @@ RunView read_run(const fs::path &folder, const ViewOptions &options) {
     ViewParticle particle;
     particle.id = p.id, particle.type = p.type, particle.r = p.radius;
     particle.start = particle.end = {p.x, p.y, p.z};
+    particle.stress = p.stress;
+    run.has_stress = p.has_stress;
     if (start) {
       const auto at = start->find(p.id);
       if (at == start->end())
@@ -310,7 +312,7 @@ RunView read_run(const fs::path &folder, const ViewOptions &options) {
         "No force chains: the run dumped no bonds (compute bonded/local id1 id2 fn fs, dump local "
         "bonds_*.txt).");
   else
-    read_forces(run, bonds, log, options.columns);
+    read_forces(run, bonds, options.columns);
   return run;
 }
 

@@ -33,6 +33,7 @@ struct ViewParticle {
   Vector3 start{}, end{};
   int broken = 0;     // bonds it lost
   int fragment = -1;  // 0 is the heaviest; -1: not known
+  std::array<double, 6> stress{};  // Pa, tension positive; xx yy zz xy xz yz
 };
 
 enum class BondState { intact, tension, shear };
@@ -41,6 +42,7 @@ struct ViewBond {
   int a = 0, b = 0;  // indices of particles, a < b
   BondState state = BondState::intact;
   double time = -1;  // s, of breaking; -1: never
+  long step = -1;    // of breaking
   Vector3 place{};   // m, of breaking
 };
 
@@ -60,6 +62,7 @@ struct RunView {
   int dimension = 2;
   std::vector<ViewParticle> particles;
   bool has_start = false, has_bonds = false, has_log = false;
+  bool has_stress = false;
   double gap = 0;  // m; 0: not known
   std::vector<ViewBond> bonds;
   std::vector<Fragment> fragments;  // heaviest first
@@ -82,8 +85,10 @@ struct ViewOptions {
 
 RunView read_run(const std::filesystem::path &folder, const ViewOptions &options = {});
 
-// The two steps that read_run() takes when everything is read.
+// The steps that read_run() takes when particles and log are read; `columns` as in ViewOptions.
 void find_bonds(RunView &run, const std::vector<BrokenBond> &events);
 void find_fragments(RunView &run);
+void read_forces(RunView &run, const std::filesystem::path &file,
+                 const std::vector<std::string> &columns);
 
 }  // namespace bondlab

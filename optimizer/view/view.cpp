@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "view/view.h"
 
+#include <fmt/format.h>
+
 #include "base/user_error.h"
 #include "base/write_file.h"
 #include "report/curve_plots.h"
 #include "report/gnuplot.h"
+#include "view/frames.h"
 #include "view/paraview.h"
 #include "view/pictures.h"
 #include "view/png.h"
@@ -32,6 +35,31 @@ void add_curve(const RunView &run, const fs::path &folder, ViewWritten &written)
   plot.name = "curve";
   write_file(folder / "curve.svg", draw_plot(plot, folder));
   written.files.push_back(folder / "curve.svg");
+}
+
+// The frames on the way as two time series, particles.pvd and bonds.pvd.
+void add_series(const RunView &run, const fs::path &folder, const ViewOutput &output,
+                ViewWritten &written) {
+  const std::vector<RunFrame> frames = find_frames(run);
+  if (frames.empty()) return;
+  make_folder(folder / "frames");
+  std::vector<std::pair<double, std::string>> particles, bonds;
+  const auto put = [&](std::vector<std::pair<double, std::string>> &series, const RunFrame &frame,
+                       const char *what, const VtpData &data) {
+    const std::string name = fmt::format("frames/{}_{}.vtp", what, frame.step);
+    write_file(folder / name, vtp_text(data));
+    series.emplace_back(frame.time, name);
+  };
+  for (const RunFrame &frame : frames) {
+    const RunView then = run_at(run, frame, output.bond_columns);
+    put(particles, frame, "particles", particle_data(then));
+    if (run.has_bonds) put(bonds, frame, "bonds", bond_data(then));
+  }
+  for (const auto &[name, series] : {std::pair{"particles.pvd", particles}, {"bonds.pvd", bonds}}) {
+    if (series.empty()) continue;
+    write_file(folder / name, pvd_text(series));
+    written.files.push_back(folder / name);
+  }
 }
 
 }  // namespace
@@ -74,6 +102,7 @@ ViewWritten write_view(const RunView &run, const fs::path &folder, const ViewOut
       write_file(folder / "bonds.vtp", vtp_text(bonds));
       written.files.push_back(folder / "bonds.vtp");
     }
+    add_series(run, folder, output, written);
   }
   return written;
 }

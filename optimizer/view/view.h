@@ -2,7 +2,8 @@
 //
 // Job: all pictures and ParaView files of a run, written into a folder.
 // Method: every picture that the run has data for; in 3D each of a slice, and cracks, displacement
-//   and fragments of the whole body too. PNG by rsvg-convert where it is asked for.
+//   and fragments of the whole body too. The frames on the way, where the run has some, as a series
+//   for ParaView. PNG by rsvg-convert where it is asked for.
 // Units: none.
 // Failure: UserError when a file can't be written, gnuplot is missing, or rsvg-convert is missing
 //   and PNG was asked for.
@@ -20,6 +21,7 @@ struct ViewOutput {
   std::string plane;  // of slices: "xz"; empty: chosen
   bool png = false;
   bool paraview = true;
+  std::vector<std::string> bond_columns;  // of the frames' bond files, as in ViewOptions
 };
 
 struct ViewWritten {

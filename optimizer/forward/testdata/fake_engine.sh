@@ -19,7 +19,7 @@ note start
 echo "LIGGGHTS (fake)" >"$log"
 cat >input.txt
 case $act in
-  0) echo extra >extra.txt; echo kept >kept.txt; good ;;
+  0) echo extra >extra.txt; echo kept >kept.txt; echo frame >particles_2000.txt; good ;;
   1) head; kill -SEGV $$ ;;
   2) trap '' TERM; head; sleep 100 ;;
   3) head; printf '10\t1e-6\tnan\n' >>curve.tsv; printf '# complete: end_of_run\n' >>curve.tsv ;;
