@@ -9,7 +9,9 @@
 // not a failure: exit status 0, and so is a figure that nobody published and no run gave.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <set>
 
@@ -20,6 +22,7 @@
 #include "forward/interrupt.h"
 #include "response/check.h"
 #include "response/response.h"
+#include "response/run_quality.h"
 
 namespace bondlab {
 
@@ -43,6 +46,24 @@ std::set<std::string> tests_of(const Study &study, const PublishedCase &one) {
 int packings_of(const Study &study, const PublishedCase &one, const Options &options) {
   if (options.packings > 0) return options.packings;
   return one.packings > 0 ? one.packings : study.case_packings;
+}
+
+// How quasi-static the runs were: the worst of each test's.
+std::string checks_table(const Study &study, const std::vector<std::string> &tests,
+                         const std::vector<ForwardOutcome> &outcomes) {
+  std::map<std::string, std::map<std::string, double>> worst;  // by test and figure
+  for (std::size_t r = 0; r < outcomes.size(); ++r)
+    for (const auto &[name, value] : run_quality(study.test(tests[r]), outcomes[r])) {
+      if (quality_words(name).empty()) continue;
+      double &so_far = worst[tests[r]][name];
+      so_far = std::max(so_far, value);
+    }
+  if (worst.empty()) return "";
+  std::string page = "## Checks of the runs\n\n| test | check | worst of all runs |\n|---|---|---|\n";
+  for (const auto &[test, figures] : worst)
+    for (const auto &[name, value] : figures)
+      page += fmt::format("| {} | {} | {:.2g} |\n", test, quality_words(name), value);
+  return page + "\n";
 }
 
 void compare(const Options &options) {
@@ -82,6 +103,8 @@ void compare(const Options &options) {
   EngineForwardModel model(study, settings);
   const std::vector<ForwardOutcome> outcomes = model.run(requests, [](const BatchProgress &) {});
 
+  std::vector<std::string> tests_run;
+  for (const Slot &slot : slots) tests_run.push_back(slot.test);
   PublishedFigures figures(study.cases.size());
   double seconds = 0;
   int failed = 0;
@@ -102,7 +125,8 @@ void compare(const Options &options) {
       }
     }
   }
-  const PublishedTables tables = published_tables(study, chosen, figures);
+  PublishedTables tables = published_tables(study, chosen, figures);
+  tables.page += checks_table(study, tests_run, outcomes);
   const std::filesystem::path folder = settings.results;
   write_file(folder / "comparison.md", tables.page);
   write_file(folder / "comparison.tsv", tables.tsv);

@@ -12,7 +12,7 @@
 #include "refine/feasibility.h"
 #include "refine/polish.h"
 #include "refine/uncertainty.h"
-#include "response/response.h"
+#include "response/run_quality.h"
 
 namespace bondlab {
 
@@ -77,10 +77,7 @@ void add_outcomes(const Evaluator &evaluator, const TransformedPoint &point, Sin
     TestOutcome best;
     best.test = target.test;
     best.outcome = *outcome;
-    const auto &responses = evaluator.study().test(target.test).definition.responses;
-    if (outcome->ok)
-      best.quality = quality_figures(responses.at(target.response).function, outcome->curve,
-                                     ResponseContext{outcome->deck_variables});
+    best.quality = run_quality(evaluator.study().test(target.test), *outcome);
     const auto imbalance = best.quality.find("platen_imbalance");
     if (imbalance != best.quality.end() && imbalance->second > noticeable_imbalance) {
       Finding finding;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "response/brazilian.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "response/loading_branch.h"
@@ -8,6 +9,8 @@
 namespace bondlab::brazilian {
 
 namespace {
+
+constexpr std::size_t kFewestCracks = 5;
 
 std::vector<double> mean_force(const Curve &curve) {
   const auto &top = finite_column(curve, "force_top");
@@ -38,6 +41,20 @@ double kinetic_share(const Curve &curve, const ResponseContext &) {
   require_monotonic_time(curve);
   const auto load = mean_force(curve);
   return bondlab::kinetic_share(curve, loading_window(load, find_peak(load)));
+}
+
+double first_cracks(const Curve &curve, const std::vector<BrokenBond> &events,
+                    const ResponseContext &context) {
+  require_monotonic_time(curve);
+  const double until = curve.column("time")[find_peak(mean_force(curve))];
+  const auto before = static_cast<std::size_t>(std::count_if(
+      events.begin(), events.end(), [&](const BrokenBond &bond) { return bond.time <= until; }));
+  if (before == 0)
+    throw ResponseError(ResponseCause::window_too_small, "no bond broke before the peak");
+  const std::size_t first = std::min(before, std::max(kFewestCracks, before / 10));
+  double sum = 0;
+  for (std::size_t k = 0; k < first; ++k) sum += std::hypot(events[k].x, events[k].y);
+  return sum / static_cast<double>(first) / (context.positive("diameter") / 2);
 }
 
 }  // namespace bondlab::brazilian

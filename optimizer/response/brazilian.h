@@ -6,8 +6,7 @@
 // Columns read: time, force_top, force_bottom (N, compression +). Deck variables: diameter,
 //   thickness (m); in 2D the thickness is the deck's disc thickness.
 // Units: SI. Failure: ResponseError, see response.h.
-// Limits: the formula holds for a crack that starts at the centre; where the cracks start is not
-//   judged here.
+// Limits: the formula holds for a crack that starts at the centre: first_cracks() says where they did.
 #pragma once
 
 #include "response/response.h"
@@ -20,5 +19,11 @@ double tensile_strength(const Curve &curve, const ResponseContext &context);  //
 double platen_imbalance(const Curve &curve, const ResponseContext &context);
 /// Quality: largest kinetic over strain energy there.
 double kinetic_share(const Curve &curve, const ResponseContext &context);
+
+/// Quality: how far from the centre the first cracks are, as a share of the radius: the mean of the
+/// first tenth of the bonds broken up to the peak, five at least (all, where there are fewer). Cracks
+/// spread evenly over the disc give 2/3; cracks at the platens 1.
+double first_cracks(const Curve &curve, const std::vector<BrokenBond> &events,
+                    const ResponseContext &context);
 
 }  // namespace bondlab::brazilian

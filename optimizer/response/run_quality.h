@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// Job: the figures that judge one run of a test instead of measuring the material.
+// Method: those of the families its responses belong to (response.h), and, of a Brazilian test,
+//   where the first cracks are, which stands in the list of broken bonds.
+// Units: SI. Failure: none; a figure that can't be had is left out.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "forward/forward_model.h"
+#include "study/study.h"
+
+namespace bondlab {
+
+std::map<std::string, double> run_quality(const TestEntry &test, const ForwardOutcome &outcome);
+
+// The words a person reads for a figure of how quasi-static or valid the run is; "" for the others.
+std::string quality_words(const std::string &figure);
+
+}  // namespace bondlab
