@@ -34,6 +34,10 @@ TEST(Genesis, SameRequestGivesTheCommittedBytes) {
   SpecimenRequest bar = small_cylinder();
   bar.height = 0.040;
   EXPECT_TRUE(data_file_text(make_specimen(bar)) == committed("bar_small_3d.data"));
+  SpecimenRequest prism = small_cylinder();
+  prism.shape = SpecimenShape::prism;
+  prism.width = 0.008, prism.height = 0.010, prism.length = 0.040;
+  EXPECT_TRUE(data_file_text(make_specimen(prism)) == committed("prism_small_3d.data"));
   SpecimenRequest beam = small_rectangle();
   beam.width = 0.080, beam.height = 0.020, beam.r_min = 0.7e-3;
   EXPECT_TRUE(data_file_text(make_specimen(beam)) == committed("beam_small_2d.data"));

@@ -96,6 +96,66 @@ TEST(BendingDeck, runs_a_notched_round_bar) {
   EXPECT_GT(largest(t.column("opening")), 0.0);
 }
 
+using Values = std::vector<std::pair<std::string, std::string>>;
+
+const Values kPrism = {{"dim", "3"}, {"width", "0.008"}, {"height", "0.010"}, {"length", "0.040"},
+                       {"span", "0.0333"}, {"gap", "2e-5"}, {"sigma_c", "20e6"}};
+
+Values with(Values values, const Values &more) {
+  values.insert(values.end(), more.begin(), more.end());
+  return values;
+}
+
+// dF/dw of an unbroken beam of spheres.
+double bending_stiffness(const char *specimen, const Values &values) {
+  EngineFolder folder;
+  const Table t = curve_of(folder, "three_point_bending",
+                           with_specimen(specimen) +
+                               var(with(values, {kStrong, kTough, {"max_strain", "0.003"}, {"platen_speed", "0.05"}})),
+                           1, 240);
+  const auto deflection = t.column("deflection");
+  return slope_where(deflection, mean_load(t),
+                     [&](std::size_t k) { return deflection[k] > 0.3 * deflection.back(); });
+}
+
+TEST(BendingDeck, a_prism_is_as_stiff_as_a_round_bar_of_its_grains) {
+  // Timoshenko: w/F = S^3/(48 E I) + S/(4 kappa G A), with Cowper's kappa
+  const double S = 0.0333, d = 0.010, nu = 0.25;
+  const auto E = [&](double stiffness, double I, double A, double kappa) {
+    return stiffness * (S * S * S / (48 * I) + S / 4 * 2 * (1 + nu) / (kappa * A));
+  };
+  const Values bar = {{"dim", "3"}, {"height", "0.040"}, {"span", "0.0333"}, {"gap", "2e-5"}};
+  Values prism = kPrism;
+  prism.pop_back();
+  const double of_prism = E(bending_stiffness("prism_small_3d.data", prism), 0.008 * d * d * d / 12,
+                            0.008 * d, 10 * (1 + nu) / (12 + 11 * nu));
+  const double of_bar = E(bending_stiffness("bar_small_3d.data", bar), pi * d * d * d * d / 64,
+                          pi * d * d / 4, 6 * (1 + nu) / (7 + 6 * nu));
+  // half a mean grain of the depth may be missing at both faces: (1 + 0.74/10)^3 - 1
+  EXPECT_NEAR(of_prism / of_bar, 1.0, 0.24);
+}
+
+TEST(BendingDeck, runs_a_prism_whole_and_notched) {
+  EngineFolder a, b;
+  const auto run = [](const EngineFolder &folder, const Values &more) {
+    return curve_of(folder, "three_point_bending", with_specimen("prism_small_3d.data") + var(with(kPrism, more)), 1, 240);
+  };
+  const Table plain = run(a, {{"platen_speed", "0.05"}});
+  EXPECT_EQ(plain.completion, "stop_after_peak");
+  Table broken = engine::read_table(a.file("broken_bonds.tsv"));
+  EXPECT_LT(broken.column("y").front(), 0.0) << "the tension side";
+  EXPECT_NEAR(broken.column("z").front(), 0.020, 0.0333 / 6);  // the moment is above 2/3 of its largest
+  EXPECT_EQ(broken.rows.front()[8], "tension");
+  const Table notched = run(b, {{"platen_speed", "0.05"}, {"notch_depth", "0.003"}});
+  EXPECT_EQ(notched.completion, "stop_after_peak");
+  broken = engine::read_table(b.file("broken_bonds.tsv"));
+  // at the notch's tip, y = -5 + 3 mm, to a mean grain's diameter
+  EXPECT_NEAR(broken.column("y").front(), -0.002, 0.0015);
+  EXPECT_NEAR(broken.column("z").front(), 0.020, 0.0015);
+  EXPECT_LT(largest(mean_load(notched)), 0.7 * 0.7 * largest(mean_load(plain)));
+  EXPECT_GT(largest(notched.column("opening")), 0.0);
+}
+
 TEST(BendingDeck, is_the_same_on_1_2_and_4_ranks) {
   expect_same_on_ranks("three_point_bending",
                        with_specimen("beam_small_2d.data") +
@@ -134,6 +194,41 @@ TEST(CantileverDeck, a_chain_deflects_as_its_closed_form) {
   EXPECT_NEAR(d / f / per_newton, 1.0, 0.01);
   // moment on the clamp: load times the arm, 10 bonds of 2 mm, from the clamped sphere
   EXPECT_NEAR(std::fabs(t.last("clamp_moment")) / (t.last("force_bottom") * 0.020), 1.0, 0.02);
+}
+
+// Seed 002, section 4.3.1, bounds the bonds' diameter by a cantilever: 0.5, 1.0 and 1.5 mm between beads
+// of 1.69 mm, unbreakable. A row of such beads is Timoshenko's beam with the bonds' section when
+// k_n/k_s = E/(kappa G); ten bonds of it bend less than the beam by 1/(4 n^2) = 0.25 %. Roller and clamp
+// feel the damping of the moving beam with opposite sign. Thin bonds make a slow beam: a roller as slow.
+TEST(CantileverDeck, follows_timoshenko_over_the_bond_diameters_of_seed_002) {
+  const double R = 0.845e-3, nu = 0.3, E = 1e9, L = 10 * 2 * R;
+  const double kappa = 6 * (1 + nu) / (7 + 6 * nu), G = E / (2 * (1 + nu));
+  std::vector<engine::Particle> chain;
+  for (int k = 0; k <= 10; ++k) chain.push_back({0, 0, R + 2 * R * k, R, 2500});
+  const struct {
+    double diameter;
+    const char *speed, *ramp;
+  } cases[] = {{0.5e-3, "2e-5", "2e-2"}, {1.0e-3, "1e-4", "5e-3"}, {1.5e-3, "2e-4", "2e-3"}};
+  for (const auto &one : cases) {
+    EngineFolder folder;
+    folder.write("chain.data", engine::data_file(chain, 3, 0.05));
+    const Table t = curve_of(
+        folder, "cantilever",
+        std::vector<std::string>{"-var", "specimen", "chain.data"} +
+            var({{"dim", "3"}, {"diameter", "0.00169"}, {"height", "0.01859"}, {"clamped", "0.00169"},
+                 {"arm", "0.016055"}, {"density", "2500"}, {"E_c", "0"}, {"E_b", "1e9"},
+                 {"kb_ratio", std::to_string(E / (kappa * G))},
+                 {"lambda", std::to_string(one.diameter / (2 * R))}, {"gap", "1e-5"}, kStrong, kTough,
+                 {"max_strain", "2e-3"}, {"platen_speed", one.speed}, {"platen_ramp", one.ramp},
+                 {"platen_modulus", "1e6"}, {"roller_radius", "0.000845"}, {"gauge_size", "0.4"}, {"every", "100"}}),
+        1, 240);
+    const auto load = mean_load(t), deflection = t.column("deflection");
+    double f = 0, d = 0;
+    for (std::size_t k = load.size() / 3; k < load.size(); ++k) f += load[k], d += deflection[k];
+    const double I = pi * std::pow(one.diameter / 2, 4) / 4, A = pi * one.diameter * one.diameter / 4;
+    const double timoshenko = L * L * L / (3 * E * I) + L / (kappa * G * A);
+    EXPECT_NEAR(d / f / timoshenko, 1.0, 0.01) << one.diameter;  // what it swings about rest, as above
+  }
 }
 
 TEST(CantileverDeck, a_packed_beam_breaks_at_its_root) {
