@@ -169,13 +169,18 @@ Plot force_displacement(const Curve &curve, const ReportRunFiles &run,
 
   Plot plot;
   PlotPanel panel;
-  panel.x.label = std::string("closing of the platens (") + (to_axis > 1e3 ? "µm" : "mm") + ")";
+  // `displacement` is the closing where two platens close, and the drive's way in the other tests
+  const bool closes = run.kind == "brazilian" || run.kind == "uniaxial_compression" || run.kind == "creep";
+  panel.x.label = std::string(closes ? "closing of the platens (" : "displacement (") +
+                  (to_axis > 1e3 ? "µm" : "mm") + ")";
   panel.y.label = std::string("force (") + unit.name + ")";
   panel.y.from_zero = true;
   const auto diameter = run.variables.find("diameter"), thickness = run.variables.find("thickness");
   const ReportTarget *strength = target_with(targets, run, "brazilian.tensile_strength");
   std::string sentence =
-      "Force of the platens against their closing, and the number of broken bonds.";
+      closes ? "Force of the platens against their closing, and the number of broken bonds."
+             : "Force (mean of both sides) against the displacement of the drive, and the number of "
+               "broken bonds.";
   if (strength && diameter != run.variables.end() && thickness != run.variables.end()) {
     const double area = pi * diameter->second * thickness->second / 2;
     panel.series.push_back(
