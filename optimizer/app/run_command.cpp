@@ -6,26 +6,31 @@
 //   go through the study's run store, so that a point known already costs nothing. --half-speed runs
 //   every test a second time with its platens at half the speed and shows what that shifts: the part
 //   of a response that is the run's haste and not the specimen's (some per cent are usual for a
-//   strength, 1 % for a modulus; more means that the speed is too high). The cost is the run's own
-//   loop time over its steps and the bonds at the start.
+//   strength, 1 % for a modulus; more means that the speed is too high). Below the responses of every
+//   run stand how far it was from rest, below the tests the study's envelopes with a picture of them.
+//   All of it goes into run.json, too (run_record.h).
 // Units: --set takes quantities with units; responses are shown in the units of their targets.
 // Failure: exit status 2 with
 //   cause, folder and last log lines when a run fails.
 #include <fmt/core.h>
-#include <cmath>
-#include <cstdio>
+
+#include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include "app/commands.h"
 #include "app/progress_line.h"
+#include "app/run_record.h"
 #include "base/units.h"
+#include "base/write_file.h"
 #include "forward/engine_forward_model.h"
 #include "forward/interrupt.h"
 #include "forward/run_plan.h"
+#include "report/envelope_plot.h"
+#include "report/gnuplot.h"
 #include "response/check.h"
 #include "response/response.h"
+#include "response/run_quality.h"
 #include "study/parameter_space.h"
 
 namespace bondlab {
@@ -75,22 +80,6 @@ std::string speed_variable(const TestEntry &test) {
   return "";
 }
 
-// ", 14900 steps, 1226 bonds, 310 ns a bond and step", from the run's own log; nothing if it isn't there.
-std::string measured_cost(const std::string &run_directory) {
-  std::ifstream log(std::filesystem::path(run_directory) / "log.bondlab");
-  double seconds = 0, ranks = 0, steps = 0, bonds = 0;
-  for (std::string line; std::getline(log, line);) {
-    double a = 0, b = 0, c = 0;
-    if (std::sscanf(line.c_str(), "Loop time of %lf on %lf procs for %lf steps", &a, &b, &c) == 3)
-      seconds += a, ranks = b, steps += c;
-    else if (line.find(" bonds installed") != std::string::npos && std::sscanf(line.c_str(), " %lf", &a) == 1)
-      bonds += a;
-  }
-  if (steps <= 0 || bonds <= 0) return "";
-  return fmt::format(", {:.0f} steps, {:.0f} bonds, {:.0f} ns a bond and step{}", steps, bonds,
-                     1e9 * seconds / steps / bonds, ranks > 1 ? fmt::format(" on {:.0f} ranks", ranks) : "");
-}
-
 // How far a response moves when the platens go half as fast.
 std::string shift_at_half_speed(const std::string &function, double value, const ForwardOutcome &half) {
   if (!half.ok) return "half speed: " + half.failure.message;
@@ -104,7 +93,8 @@ std::string shift_at_half_speed(const std::string &function, double value, const
 void print_responses(const Study &study, const TestEntry &test, const ForwardOutcome &outcome,
                      const ForwardOutcome *half) {
   fmt::print("{}: run {}, {:.1f} s{}{}\n", test.name, outcome.run_id, outcome.wall_seconds,
-             outcome.from_store ? " (from the store)" : "", measured_cost(outcome.run_directory));
+             outcome.from_store ? " (from the store)" : "",
+             outcome.cost ? ", " + cost_text(*outcome.cost) : "");
   for (const auto &[name, response] : test.definition.responses) {
     const Target *target = target_of(study, test.name, name);
     std::string shown, beside;
@@ -122,7 +112,44 @@ void print_responses(const Study &study, const TestEntry &test, const ForwardOut
     }
     fmt::print("  {:<16} {:<16} {}\n", name, shown, beside);
   }
+  std::string checks;
+  for (const auto &[name, value] : run_quality(test, outcome))
+    if (const std::string words = quality_words(name); !words.empty())
+      checks += fmt::format("{}{} {:.2g}", checks.empty() ? "" : "; ", words, value);
+  if (!checks.empty()) fmt::print("  checks: {}\n", checks);
   fmt::print("  {}\n  replay: {}\n", outcome.run_directory, outcome.replay_command);
+}
+
+// The study's envelopes through these tests; those of which no test was asked for are left out.
+std::vector<StrengthEnvelope> envelopes_through(const Study &study, const std::vector<std::string> &tests,
+                                        const std::vector<ForwardOutcome> &outcomes) {
+  std::map<std::string, const ForwardOutcome *> by_test;
+  for (std::size_t i = 0; i < tests.size(); ++i) by_test[tests[i]] = &outcomes[i];
+  std::vector<StrengthEnvelope> envelopes;
+  for (const EnvelopeEntry &entry : study.envelopes)
+    if (std::any_of(entry.tests.begin(), entry.tests.end(),
+                    [&](const std::string &test) { return by_test.count(test) > 0; }))
+      envelopes.push_back(envelope_of(entry, study, by_test));
+  return envelopes;
+}
+
+void show_envelopes(const std::vector<StrengthEnvelope> &envelopes, const std::filesystem::path &folder) {
+  if (envelopes.empty()) return;
+  for (const StrengthEnvelope &envelope : envelopes) {
+    fmt::print("envelope {}: {}\n", envelope.name, envelope_text(envelope));
+    for (const EnvelopePoint &point : envelope.points)
+      fmt::print("  {:<16} {} {}, {} {}\n", point.test, envelope.over,
+                 format_quantity(point.over, envelope.unit), envelope.response,
+                 format_quantity(point.value, envelope.unit));
+    for (const std::string &sentence : envelope.left_out) fmt::print("  left out: {}\n", sentence);
+  }
+  try {
+    const Plot plot = envelope_plot(envelopes);
+    draw_plot(plot, folder);
+    fmt::print("  {}\n", (folder / (plot.name + ".svg")).string());
+  } catch (const UserError &error) {
+    fmt::print("  no picture: {}\n", error.text());
+  }
 }
 
 void run(const Options &options) {
@@ -176,6 +203,10 @@ void run(const Options &options) {
           fmt::format("\n  kept in {}\n  replay: {}", failure.run_directory, failure.command);
     if (!failure.log_tail.empty()) failures += "\n  last lines of its log:\n" + failure.log_tail;
   }
+  const std::vector<StrengthEnvelope> envelopes = envelopes_through(study, tests, outcomes);
+  const std::filesystem::path folder = settings.results;
+  show_envelopes(envelopes, folder);
+  write_file(folder / "run.json", run_record(study, values, tests, outcomes, envelopes));
   if (!failures.empty()) throw RunsFailed(failures);
 }
 

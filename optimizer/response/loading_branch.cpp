@@ -102,8 +102,10 @@ LineFit fit_line(const std::vector<double> &x, const std::vector<double> &y, Sam
   LineFit fit;
   fit.slope = sxy / sxx;
   fit.intercept = mean_y - fit.slope * mean_x;
-  if (window.size() > 2)
+  if (window.size() > 2) {
     fit.slope_error = std::sqrt(std::max(0.0, syy - fit.slope * sxy) / ((n - 2) * sxx));
+    fit.intercept_error = fit.slope_error * std::sqrt(sxx / n + mean_x * mean_x);
+  }
   return fit;
 }
 

@@ -26,7 +26,8 @@ struct SampleWindow {
 
 struct LineFit {
   double slope = 0, intercept = 0;
-  double slope_error = 0;  ///< standard error of the slope, from the scatter about the line
+  double slope_error = 0;  ///< standard errors, from the scatter about the line
+  double intercept_error = 0;
 };
 
 /// Fewest samples that a regression window must hold.

@@ -47,6 +47,8 @@ const std::map<std::string, Function> &registry() {
       {"programme.unloading_modulus", programme::unloading_modulus},
       {"shear.dilation", shear::dilation},
       {"shear.kinetic_share", shear::kinetic_share},
+      {"shear.normal_stress_at_peak", shear::normal_stress_at_peak},
+      {"shear.normal_stress_at_residual", shear::normal_stress_at_residual},
       {"shear.peak_strength", shear::peak_strength},
       {"shear.platen_imbalance", shear::platen_imbalance},
       {"shear.residual_strength", shear::residual_strength},

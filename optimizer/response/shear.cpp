@@ -20,6 +20,22 @@ Branch branch_of(const Curve &curve) {
   return {stress, find_peak(stress)};
 }
 
+// Mean over the last fifth of the displacement, which must lie behind the peak.
+double mean_of_the_end(const Curve &curve, const char *column) {
+  const Branch b = branch_of(curve);
+  const auto &values = finite_column(curve, column);
+  const auto &way = finite_column(curve, "displacement");
+  const double from = way.back() - 0.2 * (way.back() - way.front());
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = b.peak; i < way.size(); ++i)
+    if (way[i] >= from) sum += values[i], ++count;
+  if (way[b.peak] > from || count < minimum_window_samples)
+    throw ResponseError(ResponseCause::test_not_finished,
+                        "the peak is in the last fifth of the displacement: shear further");
+  return sum / static_cast<double>(count);
+}
+
 }  // namespace
 
 double peak_strength(const Curve &curve, const ResponseContext &) {
@@ -28,17 +44,15 @@ double peak_strength(const Curve &curve, const ResponseContext &) {
 }
 
 double residual_strength(const Curve &curve, const ResponseContext &) {
-  const Branch b = branch_of(curve);
-  const auto &way = finite_column(curve, "displacement");
-  const double from = way.back() - 0.2 * (way.back() - way.front());
-  double sum = 0;
-  std::size_t count = 0;
-  for (std::size_t i = b.peak; i < way.size(); ++i)
-    if (way[i] >= from) sum += b.stress[i], ++count;
-  if (way[b.peak] > from || count < minimum_window_samples)
-    throw ResponseError(ResponseCause::test_not_finished,
-                        "the peak is in the last fifth of the displacement: shear further");
-  return sum / static_cast<double>(count);
+  return mean_of_the_end(curve, "shear_stress");
+}
+
+double normal_stress_at_peak(const Curve &curve, const ResponseContext &) {
+  return finite_column(curve, "normal_stress")[branch_of(curve).peak];
+}
+
+double normal_stress_at_residual(const Curve &curve, const ResponseContext &) {
+  return mean_of_the_end(curve, "normal_stress");
 }
 
 double dilation(const Curve &curve, const ResponseContext &) {

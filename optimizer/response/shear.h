@@ -5,8 +5,8 @@
 //   the displacement, u/W, is below the tests' few per cent and not taken out). The residual strength
 //   is the mean over the last fifth of the shear displacement, behind the peak. Dilation is the
 //   largest rise of the lid from where it stood when shearing began. Friction angle and cohesion
-//   follow from peaks at three normal stresses or more, by a study.
-// Columns read: time, displacement (m), shear_stress (Pa), lift (m), force_top, force_bottom (N),
+//   follow from tests at three normal stresses or more (envelope.h).
+// Columns read: time, displacement (m), shear_stress, normal_stress (Pa), lift (m), force_top, force_bottom (N),
 //   kinetic_energy, strain_energy (J).
 // Units: SI. Failure: ResponseError; test_not_finished when the stress never fell behind its peak.
 // Limits: a ductile test without a peak gives none of the strengths.
@@ -18,6 +18,9 @@ namespace bondlab::shear {
 
 double peak_strength(const Curve &curve, const ResponseContext &context);      ///< Pa
 double residual_strength(const Curve &curve, const ResponseContext &context);  ///< Pa
+/// Pa; what the servo really held: at the peak, and over the same last fifth as the residual strength.
+double normal_stress_at_peak(const Curve &curve, const ResponseContext &context);
+double normal_stress_at_residual(const Curve &curve, const ResponseContext &context);
 double dilation(const Curve &curve, const ResponseContext &context);           ///< m
 /// Quality: largest difference of the two halves' shear forces, and largest kinetic over strain
 /// energy, between 40 and 60 % of the peak.

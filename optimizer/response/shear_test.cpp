@@ -11,14 +11,16 @@ namespace {
 // Settling until sample 20 (the lid sinks by 1e-6), up to 8 MPa at 100, down to 3 MPa at 150, on.
 Curve shear_curve(int samples = 400) {
   Curve curve;
-  curve.names = {"time", "displacement", "shear_stress", "lift", "force_top", "force_bottom"};
-  curve.columns.resize(6);
+  curve.names = {"time", "displacement", "shear_stress", "lift", "force_top", "force_bottom",
+                 "normal_stress"};
+  curve.columns.resize(7);
   for (int i = 0; i < samples; ++i) {
     const int s = std::max(0, i - 20);
     const double stress = s <= 100 ? 8e4 * s : std::max(3e6, 8e6 - 1e5 * (s - 100));
     const double lift = (i < 20 ? -5e-8 * i : -1e-6) + 1e-8 * s - (s > 200 ? 5e-9 * (s - 200) : 0);
-    const double row[] = {1e-5 * i, 1e-6 * s, stress, lift, stress, 0.9 * stress};
-    for (std::size_t c = 0; c < 6; ++c) curve.columns[c].push_back(row[c]);
+    const double row[] = {1e-5 * i, 1e-6 * s, stress, lift, stress, 0.9 * stress,
+                          s == 100 ? 5.5e6 : s > 300 ? 4.5e6 : 5e6};
+    for (std::size_t c = 0; c < 7; ++c) curve.columns[c].push_back(row[c]);
   }
   curve.complete = true;
   return curve;
@@ -27,6 +29,13 @@ Curve shear_curve(int samples = 400) {
 TEST(Shear, PeakAndResidualStrength) {
   EXPECT_DOUBLE_EQ(evaluate("shear.peak_strength", shear_curve(), {}), 8e6);
   EXPECT_DOUBLE_EQ(evaluate("shear.residual_strength", shear_curve(), {}), 3e6);
+}
+
+TEST(Shear, NormalStressIsWhatTheServoHeld) {
+  EXPECT_DOUBLE_EQ(evaluate("shear.normal_stress_at_peak", shear_curve(), {}), 5.5e6);
+  // the last fifth begins at 0.8 of 379 steps
+  EXPECT_DOUBLE_EQ(evaluate("shear.normal_stress_at_residual", shear_curve(), {}), 4.5e6);
+  EXPECT_THROW(evaluate("shear.normal_stress_at_residual", shear_curve(135), {}), ResponseError);
 }
 
 TEST(Shear, DilationCountsFromTheStartOfShearing) {

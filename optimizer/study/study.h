@@ -97,6 +97,17 @@ struct FitEntry {
   Place place;
 };
 
+// A straight line value = c + over tan(phi) through one response of several tests.
+struct EnvelopeEntry {
+  std::string name;
+  std::vector<std::string> tests;  // names of TestEntry; three or more
+  std::string response;            // of each of them
+  std::string over;                // another response of each, or a numeric deck variable, of the
+                                   // same dimension
+  std::string unit;                // to show c in
+  Place place;
+};
+
 struct FitOptions {
   int lhs_points = 12;
   int max_iterations = 8;
@@ -158,6 +169,7 @@ struct Study {
   std::vector<Parameter> parameters;
   std::vector<Target> targets;
   std::vector<FitEntry> fits;
+  std::vector<EnvelopeEntry> envelopes;
   FitOptions options;
   std::vector<PublishedQuantity> quantities;
   std::vector<PublishedCase> cases;

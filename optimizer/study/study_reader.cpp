@@ -311,6 +311,7 @@ Study read_study(const fs::path &file) {
   read_parameters(top, study);
   read_targets(top, study);
   read_fits(top, study);
+  read_envelopes(top, study);
   read_published(top, study);
   read_fit_options(top, study);
   read_assumptions(top, study);

@@ -21,6 +21,7 @@ void read_tests(TomlTable &top, Study &study);  // and the test.toml of each
 void read_parameters(TomlTable &top, Study &study);
 void read_targets(TomlTable &top, Study &study);
 void read_fits(TomlTable &top, Study &study);
+void read_envelopes(TomlTable &top, Study &study);
 void read_published(TomlTable &top, Study &study);  // [[quantities]], [[cases]], [compare]
 void read_fit_options(TomlTable &top, Study &study);
 
