@@ -94,14 +94,18 @@ TEST(ShearDeck, more_normal_load_more_strength_and_less_dilation) {
                lift = t.column("lift"), phase = t.column("phase");
     peak[k] = largest(stress);
     const auto normal = t.column("normal_stress");
-    double sum = 0, n = 0, start = 0, held = 0, shearing = 0;
+    const auto time = t.column("time");
+    double sum = 0, n = 0, start = 0, begin = 0, held = 0, shearing = 0;
     for (std::size_t i = 0; i < way.size(); ++i) {
       if (way[i] > 0.8 * way.back()) sum += stress[i], ++n;
-      if (phase[i] == 2) start = lift[i];
+      if (phase[i] == 2) start = lift[i], begin = time[i];
       if (phase[i] != 2) held += normal[i], ++shearing;
     }
-    // the servo's lag when the lid rises as fast as the box moves: v E t_settle/(100 H)
-    EXPECT_NEAR(held / shearing, k ? 15e6 : 3e6, 0.1 * 25e9 * 2e-4 / (100 * 0.020));
+    // a servo that never meets its largest speed lags by the lid's speed over its gain, here in Pa
+    // E t_settle/(100 H); 2 % for what happens between two points of the curve
+    const double asked = k ? 15e6 : 3e6;
+    const double lag = (lift.back() - start) / (time.back() - begin) * 25e9 * 2e-4 / (100 * 0.020);
+    EXPECT_NEAR(held / shearing, asked + lag, 0.02 * asked);
     residual[k] = sum / n;
     rise[k] = largest(lift) - start;
   }

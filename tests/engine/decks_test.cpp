@@ -126,6 +126,28 @@ TEST(BrazilianDeck, splits_the_disc_along_the_load) {
   EXPECT_GT(tension, 0.7 * broken.rows.size());
 }
 
+// Jaws near the disc's own radius and a fifth as stiff as its grains spread the load.
+TEST(BrazilianDeck, cracks_start_in_the_middle_between_close_soft_jaws) {
+  engine::EngineFolder folder;
+  const std::string specimen = folder.file("disc.data");
+  const std::string make = std::string("'") + BONDLAB_BIN + "' specimen disc --diameter '50 mm' --r-min '0.58 mm' --seed 1 --out '" +
+                           specimen + "' > /dev/null 2>&1 < /dev/null";
+  ASSERT_EQ(std::system(make.c_str()), 0);
+  const engine::Table t = curve_of(
+      folder, "brazilian",
+      {"-var", "specimen", specimen, "-var", "diameter", "0.05", "-var", "jaw_radius", "1.2", "-var",
+       "platen_modulus", "5e9", "-var", "platen_mu", "0.3", "-var", "gap", "8e-5", "-var",
+       "platen_speed", "0.1", "-var", "safety", "0.8", "-var", "sigma_c", "55e6"});
+  const auto load = t.column("force_top");
+  const double peak = t.column("time")[std::max_element(load.begin(), load.end()) - load.begin()];
+  const engine::Table broken = engine::read_table(folder.file("broken_bonds.tsv"));
+  const auto x = broken.column("x"), y = broken.column("y"), time = broken.column("time");
+  double sum = 0, count = 0;
+  for (std::size_t k = 0; k < x.size() && time[k] <= peak; ++k) sum += std::hypot(x[k], y[k]), ++count;
+  ASSERT_GT(count, 5);
+  EXPECT_LT(sum / count / 0.025, 0.5);  // cracks spread evenly would lie at 2/3
+}
+
 TEST(BrazilianDeck, runs_in_3d) {
   engine::EngineFolder folder;
   const auto run = engine::run_deck(folder, deck("brazilian"), 2,
