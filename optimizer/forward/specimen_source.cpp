@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Job: generated_specimens(): packings from the specimen room as files with their hashes.
+// Job: generated_specimens(): packings from the specimen room as files with their hashes. Asked for the
+//   same packing by several threads, it makes it once.
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "base/sha256.h"
 #include "forward/engine_forward_model.h"
@@ -11,24 +13,40 @@
 
 namespace bondlab {
 
+namespace {
+
+struct Packing {
+  std::mutex making;
+  std::optional<SpecimenFile> file;
+};
+
+// Hashes are remembered by path: a batch of a thousand runs reads its specimen once.
+struct Packings {
+  std::mutex lock;
+  std::map<std::string, std::shared_ptr<Packing>> by_key;
+  std::shared_ptr<Packing> of(const std::string &key) {
+    const std::lock_guard<std::mutex> guard(lock);
+    auto &packing = by_key[key];
+    if (!packing) packing = std::make_shared<Packing>();
+    return packing;
+  }
+};
+
+}  // namespace
+
 SpecimenSource generated_specimens(const std::filesystem::path &folder) {
-  // Hashes are remembered by path: a batch of a thousand runs reads its specimen once.
-  const auto known = std::make_shared<std::map<std::string, SpecimenFile>>();
-  const auto lock = std::make_shared<std::mutex>();
-  return [folder, known, lock](const SpecimenEntry &entry, int packing) {
+  const auto known = std::make_shared<Packings>();
+  return [folder, known](const SpecimenEntry &entry, int packing) {
     const SpecimenRequest request = specimen_request(entry, packing);
-    const std::string key = specimen_key(request);
-    {
-      const std::lock_guard<std::mutex> guard(*lock);
-      const auto found = known->find(key);
-      if (found != known->end()) return found->second;
+    const auto made = known->of(specimen_key(request));
+    const std::lock_guard<std::mutex> guard(made->making);
+    if (!made->file) {
+      SpecimenFile file;
+      file.path = std::filesystem::absolute(ensure_specimen(request, folder));
+      file.hash = sha256_file(file.path);
+      made->file = file;
     }
-    SpecimenFile file;
-    file.path = std::filesystem::absolute(ensure_specimen(request, folder));
-    file.hash = sha256_file(file.path);
-    const std::lock_guard<std::mutex> guard(*lock);
-    known->emplace(key, file);
-    return file;
+    return *made->file;
   };
 }
 
