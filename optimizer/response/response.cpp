@@ -61,6 +61,7 @@ const std::map<std::string, Function> &registry() {
       {"uniaxial.peak_stress", uniaxial::peak_stress},
       {"uniaxial.platen_imbalance", uniaxial::platen_imbalance},
       {"uniaxial.poisson_gauge", uniaxial::poisson_gauge},
+      {"uniaxial.strength_within_strain", uniaxial::strength_within_strain},
       {"uniaxial.tangent_modulus_gauge", uniaxial::tangent_modulus_gauge},
       {"uniaxial.tangent_modulus_machine", uniaxial::tangent_modulus_machine},
       {"uniaxial.tangent_modulus_platen", uniaxial::tangent_modulus_platen},

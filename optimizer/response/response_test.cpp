@@ -138,6 +138,27 @@ TEST(Uniaxial, TestThatStoppedBeforeThePeakGivesNoNumber) {
             ResponseCause::test_not_finished);
 }
 
+TEST(Uniaxial, StrengthWithinAStrainIsThatOfASpecimenThatFlowsOrHasBroken) {
+  const char *const function = "uniaxial.strength_within_strain";
+  Curve curve = compression_curve(1);  // flows at its peak
+  curve.names.push_back("strain_machine");
+  curve.columns.push_back(column(curve, "strain_platen"));
+  const double end = curve.columns.back().back();
+  EXPECT_NEAR(evaluate(function, curve, {{{"max_strain", end}}}), strength, 1e-9 * strength);
+  EXPECT_EQ(cause_of("uniaxial.peak_stress", curve), ResponseCause::test_not_finished);
+  // Cut off before it got there, though it had not failed.
+  EXPECT_EQ(cause_of(function, curve, {{{"max_strain", 1.1 * end}}}),
+            ResponseCause::test_not_finished);
+  EXPECT_EQ(cause_of(function, curve, {}), ResponseCause::missing_variable);
+  Curve broken = compression_curve();
+  broken.names.push_back("strain_machine");
+  broken.columns.push_back(column(broken, "strain_platen"));
+  EXPECT_NEAR(evaluate(function, broken, {{{"max_strain", 1.1 * end}}}), strength,
+              1e-9 * strength);
+  for (auto &value : column(broken, "axial_stress")) value = 0;
+  EXPECT_EQ(cause_of(function, broken, {{{"max_strain", end}}}), ResponseCause::no_load);
+}
+
 TEST(Uniaxial, TooFewSamplesInTheWindowAreRefused) {
   Curve sparse = compression_curve();
   for (auto &values : sparse.columns) {

@@ -7,6 +7,8 @@
 //   over the same part (ISRM 1979; ASTM D7012, tangent at half of the strength). A regression
 //   instead of a two-point secant because the stress of a discrete specimen carries the noise of
 //   single cracks and platen waves. Stress is engineering stress (force over the first area).
+//   A material that flows has no peak with a fall behind it: strength_within_strain is the greatest
+//   stress up to the strain at which the test was to end.
 // Columns read: time, axial_stress (Pa, compression +), strain_axial (gauge, compression +),
 //   strain_lateral (expansion +), strain_platen, strain_machine (with the frame's compliance);
 //   force_top and force_bottom (N) for quality only; kinetic_energy, strain_energy (J),
@@ -21,6 +23,8 @@
 namespace bondlab::uniaxial {
 
 double peak_stress(const Curve &curve, const ResponseContext &context);  ///< Pa
+/// Pa; the greatest, where the load fell or the machine reached the deck's max_strain
+double strength_within_strain(const Curve &curve, const ResponseContext &context);
 double peak_strain(const Curve &curve,
                    const ResponseContext &context);  ///< gauge axial strain at the peak
 double peak_strain_platen(const Curve &curve, const ResponseContext &context);  ///< the same, by the platens
