@@ -64,6 +64,35 @@ TEST(BendingDeck, reaction_equals_load_and_energy_equals_work) {
   EXPECT_GT(strain.back(), 0.5 * work);
 }
 
+TEST(BendingDeck, warm_bonds_have_the_modulus_strength_and_creep_of_their_temperature) {
+  using Values = std::vector<std::pair<std::string, std::string>>;
+  const auto largest_load = [](const Values &values) {
+    EngineFolder folder;
+    return largest(mean_load(beam(folder, "three_point_bending", values)));
+  };
+  // 20 K above the reference at -1 % a kelvin: 0.8 times. Creep of next to nothing makes all of one bond style.
+  const Values warm{{"temperature", "320"}, {"reference", "300"}, {"creep_rate", "1e-90"}};
+  const Values cold{{"creep_rate", "1e-90"}};
+  const Values test{{"platen_speed", "0.05"}};
+  EXPECT_NEAR(largest_load(test + warm + Values{{"strength_slope", "-0.01"}}) /
+                  largest_load(test + cold + Values{{"sigma_c", "28e6"}, {"tau_c", "72e6"}}),
+              1.0, 1e-9);
+  const Values elastic{kStrong, kTough, {"max_strain", "0.002"}};
+  const double soft = largest_load(elastic + cold + Values{{"E_b", "20e9"}}), hard = largest_load(elastic + cold);
+  EXPECT_GT(hard, 1.05 * soft);
+  // its time step is that of the harder bonds, so that waves are not the same: a tenth of the difference
+  EXPECT_NEAR(largest_load(elastic + warm + Values{{"modulus_slope", "-0.01"}}), soft, 0.1 * (hard - soft));
+  // Arrhenius: exp(-Q/R (1/320 - 1/300)) = 12.25 times the rate
+  const Values creep{{"creep_stress", "10e6"}, {"creep_exponent", "1"}};
+  const double faster = std::exp(-100e3 / 8.31446261815324 * (1.0 / 320 - 1.0 / 300));
+  const double flowing = largest_load(elastic + creep + Values{{"creep_rate", exactly(5 * faster)}});
+  EXPECT_LT(flowing, 0.9 * hard);
+  EXPECT_NEAR(largest_load(elastic + creep + Values{{"temperature", "320"}, {"reference", "300"},
+                                                   {"activation", "100e3"}, {"creep_rate", "5"}}) /
+                  flowing,
+              1.0, 1e-6);
+}
+
 TEST(BendingDeck, a_notch_weakens_opens_and_carries_the_crack) {
   EngineFolder a, b;
   const Table plain = beam(a, "three_point_bending", {{"platen_speed", "0.05"}, {"span", "0.076"}});

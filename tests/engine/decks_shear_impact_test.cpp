@@ -84,6 +84,35 @@ TEST(ShearDeck, holds_its_normal_load_and_balances_its_halves) {
   EXPECT_GT(shearing, 20u);
 }
 
+TEST(ShearDeck, warm_bonds_have_the_modulus_strength_and_creep_of_their_temperature) {
+  using Values = std::vector<std::pair<std::string, std::string>>;
+  const auto largest_load = [](const Values &values) {
+    EngineFolder folder;
+    return largest(sheared(folder, values).column("shear_stress"));
+  };
+  // 20 K above the reference at -1 % a kelvin: 0.8 times. Creep of next to nothing makes all of one bond style.
+  const Values warm{{"temperature", "320"}, {"reference", "300"}, {"creep_rate", "1e-90"}};
+  const Values cold{{"creep_rate", "1e-90"}};
+  const Values test{{"max_shear", "0.004"}};
+  EXPECT_NEAR(largest_load(test + warm + Values{{"strength_slope", "-0.01"}}) /
+                  largest_load(test + cold + Values{{"sigma_c", "28e6"}, {"tau_c", "72e6"}}),
+              1.0, 1e-9);
+  const Values elastic{kStrong, kTough, {"max_shear", "0.0007"}};
+  const double soft = largest_load(elastic + cold + Values{{"E_b", "20e9"}}), hard = largest_load(elastic + cold);
+  EXPECT_GT(hard, 1.05 * soft);
+  // its time step is that of the harder bonds, so that waves are not the same: a tenth of the difference
+  EXPECT_NEAR(largest_load(elastic + warm + Values{{"modulus_slope", "-0.01"}}), soft, 0.1 * (hard - soft));
+  // Arrhenius: exp(-Q/R (1/320 - 1/300)) = 12.25 times the rate
+  const Values creep{{"creep_stress", "10e6"}, {"creep_exponent", "1"}};
+  const double faster = std::exp(-100e3 / 8.31446261815324 * (1.0 / 320 - 1.0 / 300));
+  const double flowing = largest_load(elastic + creep + Values{{"creep_rate", exactly(5 * faster)}});
+  EXPECT_LT(flowing, 0.9 * hard);
+  EXPECT_NEAR(largest_load(elastic + creep + Values{{"temperature", "320"}, {"reference", "300"},
+                                                   {"activation", "100e3"}, {"creep_rate", "5"}}) /
+                  flowing,
+              1.0, 1e-6);
+}
+
 TEST(ShearDeck, more_normal_load_more_strength_and_less_dilation) {
   double peak[2], residual[2], rise[2];
   for (const int k : {0, 1}) {
