@@ -75,14 +75,6 @@ inline std::vector<std::string> operator+(std::vector<std::string> a, const std:
   return a;
 }
 
-// All digits: contacts that slip or stick make much of a rounding.
-inline std::string exactly(double value) {
-  std::ostringstream text;
-  text.precision(17);
-  text << value;
-  return text.str();
-}
-
 inline std::vector<std::pair<std::string, std::string>> operator+(
     std::vector<std::pair<std::string, std::string>> a,
     const std::vector<std::pair<std::string, std::string>> &b) {
