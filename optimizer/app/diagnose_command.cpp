@@ -56,6 +56,24 @@ std::vector<EffectDefinition> effects_from(const std::vector<std::string> &named
   return effects;
 }
 
+// Those of these names, each of which must be there.
+std::vector<EffectDefinition> only_these(std::vector<EffectDefinition> effects,
+                                         const std::vector<std::string> &names) {
+  if (names.empty()) return effects;
+  std::vector<std::string> known;
+  for (const auto &effect : effects) known.push_back(effect.name);
+  for (const auto &name : names)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw UserError("--only: there is no effect '" + name + "' (allowed: " + join(known) + ")");
+  effects.erase(std::remove_if(effects.begin(), effects.end(),
+                               [&](const EffectDefinition &effect) {
+                                 return std::find(names.begin(), names.end(), effect.name) ==
+                                        names.end();
+                               }),
+                effects.end());
+  return effects;
+}
+
 diagnose::ModelFactory engine_on(const Study &study, const fs::path &results, int jobs) {
   ForwardSettings settings;
   settings.results = results;
@@ -77,6 +95,7 @@ void add_common(CLI::App &command, Common &common) {
 struct Diagnosing : Common {
   std::string data;
   int rounds = 1;
+  std::vector<std::string> only;  // names of effects; empty: all
   diagnose::StudyDiagnosisOptions options;
 };
 
@@ -94,7 +113,7 @@ void run_diagnose(const Diagnosing &asked) {
   Study study = read_study(asked.study);
   check_response_functions(study);
   if (!asked.data.empty()) study.data = read_data_folder(asked.data);
-  const auto effects = effects_from(asked.effects, {"effects"});
+  const auto effects = only_these(effects_from(asked.effects, {"effects"}), asked.only);
   const fs::path first = results_directory(asked.out, study.name);
   catch_interrupts();
   ProgressLine line;
@@ -196,6 +215,10 @@ void add_diagnose(CLI::App &app) {
   command->add_option("--out", asked->out,
                       "directory of the results (default: bondlab-results/STUDY-NAME)");
   command->add_option("--data", asked->data, "data folder instead of the study's own");
+  command
+      ->add_option("--only", asked->only,
+                   "effects that are tried, with commas between (default: all of the folders)")
+      ->delimiter(',');
   command->add_option("--holdout", asked->options.holdout,
                       "series not used until the end, or none (default: the last of five or more)");
   command
