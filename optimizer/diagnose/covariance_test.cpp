@@ -93,6 +93,17 @@ TEST(ExcessScatter, OfFewSpecimensLeansOnAllQuantitiesTogether) {
   EXPECT_GT(few[0], 1.05 * many[0]);
 }
 
+// What is nearly the same in every packing (a servo's hold) and measured with a noisy sensor.
+TEST(ExcessScatter, OfASensorFarWorseThanAllOthersIsBelievedFromFewSpecimens) {
+  std::vector<ExcessTally> tallies(8);
+  for (auto &tally : tallies) tally.add(1, 1, 3, 39);
+  tallies[3].sum = 0, tallies[3].dof = 0;
+  tallies[3].add(100, 1, 3, 39);
+  const auto excess = excess_scatter(tallies);
+  EXPECT_GT(excess[3], 60);
+  EXPECT_LT(excess[2], 3);
+}
+
 TEST(ExcessScatter, NothingMeasuredTwiceHasNone) {
   EXPECT_EQ(excess_scatter({ExcessTally(), ExcessTally()}), (std::vector<double>{1, 1}));
 }
@@ -111,6 +122,19 @@ TEST(SpecimenCovariance, HasTheExcessOnItsDiagonalOnly) {
   EXPECT_NEAR(noisy(0, 0), plain(0, 0), 1e-12);
   // A sensor's noise is its own: what the rows share stays as large as it was.
   EXPECT_NEAR(noisy(0, 1), plain(0, 1), 0.2 * plain(0, 1));
+}
+
+TEST(SpecimenCovariance, ASpecimenFarOffInOneRowWidensThatRowAlone) {
+  RandomStream random(7, 1);
+  const Eigen::MatrixXd packings = draw(correlated(0.5, 3), 40, random);
+  Eigen::MatrixXd specimens = draw(correlated(0.5, 3), 4, random);
+  const Eigen::VectorXd none = Eigen::VectorXd::Ones(3);
+  const Eigen::MatrixXd plain = specimen_covariance(packings, specimens, none);
+  specimens(2, 1) += 30;
+  const Eigen::MatrixXd off = specimen_covariance(packings, specimens, none);
+  // Its mean is off by 30 / 4, which must be within 3 sd of the mean of four.
+  EXPECT_GT(3 * std::sqrt(off(1, 1) / 4), 30.0 / 4);
+  EXPECT_NEAR(off(0, 0), plain(0, 0), 1e-12);
 }
 
 }  // namespace

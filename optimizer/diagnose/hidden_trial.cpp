@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int sizing_rounds = 4;
+constexpr int sizing_rounds = 2;
 
 // Data of a plan with nothing measured yet: what noise units are counted in.
 std::vector<MeasuredSeries> plan_of(const std::vector<ProbedSeries> &probed, int replicates) {
@@ -293,6 +293,7 @@ std::vector<TrialCase> run_trial(const HiddenSet &set, const Study &laboratory,
     trial.margin = d.margin, trial.p_trace = d.p_trace, trial.p_omnibus = d.p_omnibus;
     trial.trace = d.trace, trial.trace_alarm = d.trace_alarm;
     trial.omnibus = d.omnibus, trial.omnibus_alarm = d.omnibus_alarm;
+    trial.where = d.where;
     trial.gap = result.gap, trial.cross = result.cross;
     trial.predicted_gain = d.predicted_gain, trial.confirmed_gain = result.confirmed_gain;
     trial.new_runs = result.runs;

@@ -46,6 +46,7 @@ struct TrialCase {
   std::vector<double> named_sizes;
   double margin = 0, p_trace = 1, p_omnibus = 1;
   double trace = 0, trace_alarm = 0, omnibus = 0, omnibus_alarm = 0;
+  std::vector<Spot> where;
   Gap gap;
   CrossGap cross;
   double predicted_gain = 0, confirmed_gain = 0;

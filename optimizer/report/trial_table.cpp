@@ -29,8 +29,7 @@ std::string numbers(const std::vector<double> &values) {
 std::string counted(int hits, int cases) {
   if (cases == 0) return "-";
   using Beta = boost::math::beta_distribution<>;
-  const double low =
-      hits == 0 ? 0 : boost::math::quantile(Beta(hits, cases - hits + 1.0), 0.025);
+  const double low = hits == 0 ? 0 : boost::math::quantile(Beta(hits, cases - hits + 1.0), 0.025);
   const double high =
       hits == cases ? 1 : boost::math::quantile(Beta(hits + 1.0, cases - hits), 0.975);
   return fmt::format("{} of {} ({:.0f} to {:.0f} %)", hits, cases, 100 * low, 100 * high);
@@ -64,17 +63,19 @@ std::string trial_line(const TrialCase &t) {
 
 std::string trial_markdown(const std::vector<TrialCase> &cases) {
   std::string out =
-      "| case | size | noise units | verdict | named | its size | margin | held out, closed by it / "
-      "by a placebo | parameters in their intervals, before / after |\n|--|--|--|--|--|--|--|--|--|\n";
+      "| case | size | noise units | verdict | named | its size | margin | held out, closed by it "
+      "/ "
+      "by a placebo | parameters in their intervals, before / after "
+      "|\n|--|--|--|--|--|--|--|--|--|\n";
   for (const auto &t : cases)
-    out += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} / {} | {} / {} of {} |\n",
-                       t.hidden.id, numbers(t.sizes), numbers(t.units), to_string(t.verdict),
-                       joined(t.named), numbers(t.named_sizes),
-                       std::isfinite(t.margin) && !t.named.empty() ? fmt::format("{:.0f}", t.margin)
-                                                                   : "-",
-                       t.named.empty() ? "-" : share(t.cross.closed()),
-                       t.named.empty() ? "-" : share(t.cross.closed_by_placebo()),
-                       t.inside_before, t.inside_after, t.parameters);
+    out += fmt::format(
+        "| {} | {} | {} | {} | {} | {} | {} | {} / {} | {} / {} of {} |\n", t.hidden.id,
+        numbers(t.sizes), numbers(t.units), to_string(t.verdict), joined(t.named),
+        numbers(t.named_sizes),
+        std::isfinite(t.margin) && !t.named.empty() ? fmt::format("{:.0f}", t.margin) : "-",
+        t.named.empty() ? "-" : share(t.cross.closed()),
+        t.named.empty() ? "-" : share(t.cross.closed_by_placebo()), t.inside_before, t.inside_after,
+        t.parameters);
   const std::array<std::string, 4> kinds = {"effect", "outside", "pair", "null"};
   const std::array<std::string, 3> others = {"largest residual", "BIC", "LASSO"};
   out += "\n" + std::string(count_head);
@@ -106,14 +107,16 @@ void write_trial(const std::vector<TrialCase> &cases, const std::filesystem::pat
     one["margin"] = finite(t.margin), one["p_trace"] = t.p_trace, one["p_omnibus"] = t.p_omnibus;
     one["trace"] = {{"score", t.trace}, {"alarm", t.trace_alarm}};
     one["whole"] = {{"score", t.omnibus}, {"alarm", t.omnibus_alarm}};
+    one["where"] = nlohmann::json::array();
+    for (const auto &spot : t.where)
+      one["where"].push_back({{"name", spot.name}, {"score", spot.score}});
     one["predicted_gain"] = t.predicted_gain, one["confirmed_gain"] = finite(t.confirmed_gain);
     one["held_out"] = {{"before", t.cross.before},
                        {"after", t.cross.after},
                        {"placebo", t.cross.placebo},
                        {"floor", t.cross.floor}};
-    one["parameters_inside"] = {{"before", t.inside_before},
-                                {"after", t.inside_after},
-                                {"of", t.parameters}};
+    one["parameters_inside"] = {
+        {"before", t.inside_before}, {"after", t.inside_after}, {"of", t.parameters}};
     one["others"] = t.others, one["new_runs"] = t.new_runs;
     all.push_back(one);
   }
