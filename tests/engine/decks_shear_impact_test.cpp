@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 #include "deck_tools.h"
 
@@ -210,6 +212,78 @@ TEST(ImpactDeck, a_faster_ball_breaks_more_and_takes_more_energy) {
   EXPECT_GT(broken[1], broken[0]);
   EXPECT_GT(broken[1], 0.05);
   EXPECT_GT(absorbed[1], 0.0);
+}
+
+// The small cylinder turned about x so that its side is where its end was: x, h/2 - z, y + r.
+std::string laid_down(const std::string &data, double height, double radius) {
+  std::istringstream in(data);
+  std::ostringstream out;
+  out.precision(17);
+  bool atoms = false;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream fields(line);
+    double id, type, diameter, density, x, y, z;
+    if (atoms && fields >> id >> type >> diameter >> density >> x >> y >> z) {
+      out << id << " " << type << " " << diameter << " " << density << " " << x << " "
+          << 0.5 * height - z << " " << y + radius << "\n";
+      continue;
+    }
+    atoms = atoms || line == "Atoms";
+    if (line.find("zlo") != std::string::npos) line = "-0.01 0.02 zlo zhi";
+    out << line << "\n";
+  }
+  return out.str();
+}
+
+double at_time(const std::vector<double> &time, const std::vector<double> &y, double t) {
+  std::size_t k = 1;
+  while (k + 1 < time.size() && time[k] < t) ++k;
+  return y[k - 1] + (y[k] - y[k - 1]) * (t - time[k - 1]) / (time[k] - time[k - 1]);
+}
+
+// Nothing in the deck but the direction of the load may depend on `lying`. The step's bound is
+// estimated from a start vector that isn't turned with the specimen, so the steps differ by 0.1 %:
+// no more than that of the largest value may come from it.
+TEST(ImpactDeck, a_lying_cylinder_is_a_turned_one) {
+  EngineFolder lying, turned;
+  std::ifstream in(kInputs + "specimens/brazilian_small_3d.data");
+  std::stringstream data;
+  data << in.rdbuf();
+  turned.write("turned.data", laid_down(data.str(), 0.005, 0.005));
+  const auto same = var({kStrong, kTough, {"ball_speed", "0.5"}, {"duration", "3e-5"}, {"every", "2"}});
+  const Table a = curve_of(lying, "impact", with_specimen("brazilian_small_3d.data") + var({{"lying", "yes"}}) + same);
+  const Table b = curve_of(turned, "impact",
+                           var({{"specimen", turned.file("turned.data")}, {"height", "0.010"}}) + same);
+  const auto t = a.column("time"), u = b.column("time");
+  ASSERT_NEAR(t[1], u[1], 2e-3 * u[1]);
+  for (const char *name : {"displacement", "force_top", "force_bottom", "ball_velocity", "strain_energy"}) {
+    const auto one = a.column(name), two = b.column(name);
+    double scale = 0, worst = 0;
+    for (const double v : two) scale = std::fmax(scale, std::fabs(v));
+    for (std::size_t k = 0; k < t.size() && t[k] < u.back(); ++k)
+      worst = std::fmax(worst, std::fabs(one[k] - at_time(u, two, t[k])));
+    EXPECT_GT(scale, 0) << name;
+    EXPECT_LT(worst, 1e-3 * scale) << name;
+  }
+}
+
+// As in the Brazilian test: along the plane of ball, axis and anvil, and in two parts at least.
+TEST(ImpactDeck, a_lying_cylinder_breaks_along_the_load) {
+  const double radius = 0.005;
+  EngineFolder folder;
+  const Table t = hit(folder, {{"lying", "yes"}, {"ball_speed", "1"}});
+  EXPECT_LT(t.last("largest_share"), 0.9);
+  const Table broken = engine::read_table(folder.file("broken_bonds.tsv"));
+  const auto x = broken.column("x"), y = broken.column("y");
+  ASSERT_GT(x.size(), 50u);
+  double along = 0, across = 0, by_the_anvil = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    along += std::fabs(y[k]);
+    across += std::fabs(x[k]);
+    by_the_anvil += y[k] < -0.25 * radius;
+  }
+  EXPECT_LT(across, 0.75 * along);  // all over the disc: the same
+  EXPECT_GT(by_the_anvil, 0.1 * x.size()) << "the crack doesn't go through";
 }
 
 TEST(ImpactDeck, is_the_same_on_1_2_and_4_ranks) {
