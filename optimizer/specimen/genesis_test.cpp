@@ -35,7 +35,7 @@ TEST(Genesis, SameRequestGivesTheCommittedBytes) {
   bar.height = 0.040;
   EXPECT_TRUE(data_file_text(make_specimen(bar)) == committed("bar_small_3d.data"));
   SpecimenRequest prism = small_cylinder();
-  prism.shape = SpecimenShape::prism;
+  prism.shape = ContainerShape::prism;
   prism.width = 0.008, prism.height = 0.010, prism.length = 0.040;
   EXPECT_TRUE(data_file_text(make_specimen(prism)) == committed("prism_small_3d.data"));
   SpecimenRequest beam = small_rectangle();
