@@ -76,7 +76,9 @@ std::vector<double> excess_scatter(const std::vector<ExcessTally> &tallies) {
     const double apart = logarithm(tallies[i]) - common, chance = 2 / tallies[i].dof;
     // A sensor may be far worse than all others: what chance can't explain is believed.
     const double prior = std::max(prior_variance, apart * apart - chance);
-    out[i] = std::exp(std::max(0.0, common + apart * prior / (prior + chance)));
+    const double weight = prior / (prior + chance);
+    // With what is left unknown of the logarithm: a variance from few specimens has long tails.
+    out[i] = std::exp(std::max(0.0, common + weight * apart) + weight * chance);
   }
   return out;
 }

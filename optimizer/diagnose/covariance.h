@@ -10,7 +10,8 @@
 //   over variance, is taken to be the same for one quantity of one kind of test in all its series;
 //   its logarithm is drawn towards that of all quantities together by what chance allows (an
 //   empirical Bayes estimate, normal with sd 0.5 before the data, or with what lies beyond chance
-//   where that is more), and is never below none. The excess is independent from row to row. A row
+//   where that is more), and is never below none; what stays unknown of it is added, so that a row
+//   whose noise few specimens tell counts for less. The excess is independent from row to row. A row
 //   whose own specimens scatter more still than chance allows is given what they show.
 // Source: Schaefer & Strimmer, Stat. Appl. Genet. Mol. Biol. 4 (2005) 32, eq. 10 (target D).
 // Units: squared units of the rows. Failure: one sample has covariance zero.
