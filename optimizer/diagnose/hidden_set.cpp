@@ -24,7 +24,7 @@ HiddenSet read_hidden_set(const std::filesystem::path &file) {
     HiddenCase one;
     one.place = table.place();
     one.id = table.text("id", true);
-    one.kind = table.choice("kind", {"effect", "outside", "pair", "null"}, true);
+    one.kind = table.choice("kind", {"effect", "outside", "left_out", "pair", "null"}, true);
     one.seed = static_cast<std::uint64_t>(table.whole("seed", 0, 0, 9999, true));
     one.effects = table.words("effects");
     const std::size_t wanted = one.kind == "null" ? 0 : one.kind == "pair" ? 2 : 1;

@@ -17,7 +17,7 @@ namespace bondlab::diagnose {
 
 struct HiddenCase {
   std::string id;
-  std::string kind;  // effect, outside, pair, null
+  std::string kind;  // effect, outside, left_out (taken out of the catalogue), pair, null
   std::uint64_t seed = 0;
   std::vector<std::string> effects;  // one; two of a pair; none of a null
   double units = 0;                  // of each effect

@@ -19,11 +19,30 @@ namespace fs = std::filesystem;
 
 const fs::path inputs = fs::path(BONDLAB_SOURCE_DIR) / "inputs";
 const fs::path frozen = inputs / "hidden" / "set.toml";
+const fs::path second = inputs / "hidden" / "set_weak.toml";
 
 // Cases are not to be chosen by what a diagnosis makes of them. Who changes them says so here.
 TEST(HiddenSet, IsTheOneThatWasFrozen) {
   EXPECT_EQ(sha256_file(frozen),
             "433083079892b04a019d921a2457ba560f1ae8f7343452d2e7796788eadba775");
+  EXPECT_EQ(sha256_file(second),
+            "14585caf8ad00b2956dfae3911ba52bca0e1982d1f467b771942623445446486");
+  EXPECT_EQ(sha256_file(read_hidden_set(second).laboratory),
+            "0db8ac5d1b36776817e0d134b1049da6a7bcf986a55e62b0327a204c7d494f18");
+}
+
+TEST(HiddenSet, SecondHasEffectsLeftOutOfTheCatalogueAndTenNulls) {
+  std::map<std::string, int> kinds;
+  std::map<std::string, std::set<double>> sizes;
+  for (const auto &one : read_hidden_set(second).cases) {
+    ++kinds[one.kind];
+    if (one.kind == "effect") sizes[one.effects[0]].insert(one.units);
+  }
+  EXPECT_EQ(kinds,
+            (std::map<std::string, int>{
+                {"effect", 28}, {"outside", 6}, {"left_out", 4}, {"pair", 4}, {"null", 10}}));
+  EXPECT_EQ(sizes.size(), 14u);
+  for (const auto &[name, units] : sizes) EXPECT_EQ(units, (std::set<double>{10, 20})) << name;
 }
 
 TEST(HiddenSet, HasFourteenEffectsInTwoSizesFiveFromOutsideThreePairsAndFourNulls) {
@@ -41,28 +60,32 @@ TEST(HiddenSet, HasFourteenEffectsInTwoSizesFiveFromOutsideThreePairsAndFourNull
 }
 
 TEST(HiddenSet, NamesEffectsThatItsLaboratoryShowsInsideAndOutsideTheCatalogue) {
-  const auto set = read_hidden_set(frozen);
-  const Study study = read_study(set.laboratory);
   const auto names = [](const std::vector<EffectDefinition> &effects) {
     std::set<std::string> out;
     for (const auto &effect : effects) out.insert(effect.name);
     return out;
   };
-  const auto inside = names(effects_of_study(study, read_effects(inputs / "effects")));
   const auto outside = names(read_effects(inputs / "hidden" / "outside"));
-  for (const auto &one : set.cases)
-    for (const auto &effect : one.effects)
-      EXPECT_TRUE((one.kind == "outside" ? outside : inside).count(effect)) << one.id;
+  for (const auto &file : {frozen, second}) {
+    const auto set = read_hidden_set(file);
+    const auto inside =
+        names(effects_of_study(read_study(set.laboratory), read_effects(inputs / "effects")));
+    for (const auto &one : set.cases)
+      for (const auto &effect : one.effects)
+        EXPECT_TRUE((one.kind == "outside" ? outside : inside).count(effect)) << one.id;
+  }
 }
 
 TEST(HiddenSet, EverySeriesOfTheLaboratoryHasItsOwnSpecimens) {
-  const Study study = read_study(read_hidden_set(frozen).laboratory);
-  std::set<std::string> specimens;
   std::set<std::uint64_t> seeds;
-  for (const auto &test : study.tests) {
-    EXPECT_TRUE(specimens.insert(test.specimen).second) << test.name;
-    // Packings of hidden cases go up to a million above the seed.
-    EXPECT_TRUE(seeds.insert(study.specimen(test.specimen).seed / 10000000).second) << test.name;
+  for (const auto &file : {frozen, second}) {
+    const Study study = read_study(read_hidden_set(file).laboratory);
+    std::set<std::string> specimens;
+    for (const auto &test : study.tests) {
+      EXPECT_TRUE(specimens.insert(test.specimen).second) << test.name;
+      // Packings of hidden cases go up to a million above the seed.
+      EXPECT_TRUE(seeds.insert(study.specimen(test.specimen).seed / 1000000).second) << test.name;
+    }
   }
 }
 

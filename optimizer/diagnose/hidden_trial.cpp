@@ -264,13 +264,17 @@ std::vector<TrialCase> run_trial(const HiddenSet &set, const Study &laboratory,
     }
     model.rescale(scales);
   }
-  model.forbid([&](const std::string &name) {
-    return std::any_of(outside.begin(), outside.end(),
-                       [&](const EffectDefinition &e) { return e.name == name; });
-  });
+  const auto forbid = [&](const HiddenCase &c) {
+    model.forbid([&](const std::string &name) {
+      return std::any_of(outside.begin(), outside.end(),
+                         [&](const EffectDefinition &e) { return e.name == name; }) ||
+             (c.kind == "left_out" && c.effects[0] == name);
+    });
+  };
 
   const auto make = [&](const HiddenCase &c) {
     TrialCase trial;
+    forbid(c);
     trial.hidden = c;
     std::tie(trial.sizes, trial.units) = planned.at(c.id);
     hide(c, trial.sizes);

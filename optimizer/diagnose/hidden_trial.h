@@ -9,8 +9,8 @@
 //   what the parameters can do, without what few packings' noise adds to it; an effect whose
 //   largest size gives less is hidden at that size and the units it has are told. Data are made by
 //   hide_effect() and read back from their folder; for the diagnosis the outsiders' admissible size
-//   is zero. What a case costs anew is its data, effects beyond the sizes run, and the engine at
-//   the fits before and after.
+//   is zero, and that of an effect left out of the catalogue. What a case costs anew is its data,
+//   effects beyond the sizes run, and the engine at the fits before and after.
 // Judged: `right`: the one name hidden (of a pair: both, and no other); `in_set`: offered with
 //   others; `outside`: not in the catalogue; `nothing`; else `wrong`.
 // Source: sizes and judgement as in the closed-form benchmark (benchmark.h).

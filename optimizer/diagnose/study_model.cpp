@@ -13,6 +13,7 @@ StudyModel::StudyModel(const Study &study, const std::vector<EffectDefinition> &
     : study_(study),
       effects_(effects_of_study(study, all)),
       catalogue_(catalogue_of(study, effects_)),
+      as_read_(catalogue_),
       expanded_(with_word_tests(study, effects_)),
       plan_(plan),
       progress_(std::move(progress)) {
@@ -78,8 +79,12 @@ std::unique_ptr<ForwardProber> StudyModel::engine_of(const std::string &test, in
 }
 
 void StudyModel::forbid(const std::function<bool(const std::string &)> &whose) {
-  for (auto &entry : catalogue_)
-    if (whose(entry.name)) entry.lowest = entry.largest = 0;
+  for (std::size_t k = 0; k < catalogue_.size(); ++k) {
+    auto &entry = catalogue_[k];
+    const bool may = !whose(entry.name);
+    entry.lowest = may ? as_read_[k].lowest : 0;
+    entry.largest = may ? as_read_[k].largest : 0;
+  }
 }
 
 std::vector<std::string> StudyModel::parameter_names() const {

@@ -37,7 +37,8 @@ class StudyModel {
   // Takes effects at other sizes: switch-on size by effect.
   void rescale(const std::map<std::size_t, double> &switch_on);
 
-  // Effects that `whose` says stay known to the prober, but no diagnosis may name them.
+  // Effects that `whose` says stay known to the prober, but no diagnosis may name them; those
+  // forbidden before may be named again.
   void forbid(const std::function<bool(const std::string &)> &whose);
 
   // A prober of one test of the study with all rows that its curves give and that scatter over
@@ -56,6 +57,7 @@ class StudyModel {
   const Study &study_;
   std::vector<EffectDefinition> effects_;
   std::vector<EffectEntry> catalogue_;
+  std::vector<EffectEntry> as_read_;
   Study expanded_;
   std::unique_ptr<ForwardModel> forward_;
   EmulatorPlan plan_;

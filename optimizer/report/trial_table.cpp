@@ -76,7 +76,7 @@ std::string trial_markdown(const std::vector<TrialCase> &cases) {
         t.named.empty() ? "-" : share(t.cross.closed()),
         t.named.empty() ? "-" : share(t.cross.closed_by_placebo()), t.inside_before, t.inside_after,
         t.parameters);
-  const std::array<std::string, 4> kinds = {"effect", "outside", "pair", "null"};
+  const std::array<std::string, 5> kinds = {"effect", "outside", "left_out", "pair", "null"};
   const std::array<std::string, 3> others = {"largest residual", "BIC", "LASSO"};
   out += "\n" + std::string(count_head);
   for (const auto &kind : kinds) {
