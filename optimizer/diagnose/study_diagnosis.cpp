@@ -20,6 +20,7 @@
 #include "diagnose/study_advice.h"
 #include "diagnose/study_gap.h"
 #include "diagnose/study_null.h"
+#include "diagnose/switch_on.h"
 
 namespace bondlab::diagnose {
 
@@ -29,8 +30,7 @@ constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr int null_draws = 2000, most_moves = 5;
 constexpr std::size_t least_for_holdout = 5;
 constexpr int most_rounds = 3;
-constexpr double contender = 40;                              // behind the best in deviance
-constexpr double size_low = 5, size_high = 25, size_aim = 8;  // noise units at switch-on
+constexpr double contender = 40;  // behind the best in deviance
 constexpr double longest_growth = 8;
 constexpr double alarm_rate = 0.01, table_size = 10;
 constexpr double interval_95 = 1.959964;
@@ -166,20 +166,19 @@ std::map<std::size_t, double> beyond_what_was_run(StudyModel &model, const Diagn
 void scale_to_noise(StudyModel &model, Prober &prober, const Evidence &evidence,
                     const std::function<void(const std::string &)> &say) {
   const Whitening plan(without_data(evidence));
-  for (int round = 0; round < 2; ++round) {
+  std::vector<std::vector<SizeTried>> tried(model.catalogue().size());
+  for (int round = 1; round < most_switch_ons; ++round) {
     const Linearisation linear = linearise(prober, plan, model.emulated().centre());
     const ScoreTable scores(Projection(linear.jacobian), linear, model.catalogue());
     std::map<std::size_t, double> other;
     for (std::size_t k = 0; k < model.catalogue().size(); ++k) {
       const auto &entry = model.catalogue()[k];
-      const double norm = scores.norm(k);
-      if (linear.dead[k] || (norm >= size_low && norm <= size_high)) continue;
-      const double wanted =
-          std::clamp(size_aim / std::max(0.1, norm), 1 / longest_growth, longest_growth);
-      const double bound = std::abs(entry.largest);
-      const double size =
-          std::copysign(std::min(std::abs(entry.switch_on) * wanted, bound), entry.switch_on);
-      if (std::abs(std::log(size / entry.switch_on)) > 0.2) other[k] = size;
+      if (linear.dead[k]) continue;
+      if (tried[k].empty() || tried[k].back().size != entry.switch_on)
+        tried[k].push_back({entry.switch_on, scores.norm(k), model.emulated().trace_noise(k)});
+      else
+        continue;
+      if (const auto size = next_switch_on(tried[k], entry.largest)) other[k] = *size;
     }
     if (other.empty()) return;
     say(
