@@ -150,10 +150,10 @@ std::string diagnosis_text(const Study &study, const StudyDiagnosis &d) {
   out += "\ngap, noise units a row                before   after\n";
   for (const auto &s : d.by_series)
     out += fmt::format("  {:<34} {:>7}  {:>7}{}\n", s.name, shown(s.before), shown(s.after),
-                       s.held_out ? "  held out" : "");
-  out += fmt::format("  {:<34} {:>7}  {:>7}  floor {}, placebo {}\n", "all that was fitted",
+                       s.held_out ? "  held out; a placebo: " + shown(d.gap.placebo_after) : "");
+  out += fmt::format("  {:<34} {:>7}  {:>7}  floor {}{}\n", "all that was fitted",
                      shown(d.gap.before), shown(d.gap.after), shown(d.gap.noise_floor),
-                     shown(d.gap.placebo_after));
+                     d.holdout.empty() ? "; a placebo: " + shown(d.gap.placebo_after) : "");
   out += fmt::format("  gain in chi squared: {} predicted, {} realised, {} by the engine itself\n",
                      shown(g.predicted_gain), shown(g.realised_gain), shown(d.confirmed_gain));
   if (d.cross.before > d.cross.floor && d.cross.floor > 0)

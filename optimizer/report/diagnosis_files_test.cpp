@@ -57,9 +57,9 @@ TEST_F(DiagnosisFiles, TheJsonHasExactlyTheKeysOfTheWorkflow) {
   const json j = json::parse(diagnosis_json(study, d));
   EXPECT_EQ(keys(j),
             (std::set<std::string>{"verdict", "effects", "where", "advice", "gap", "parameters"}));
-  EXPECT_EQ(keys(j["gap"]), (std::set<std::string>{"before", "after", "holdout_before",
-                                                   "holdout_after", "placebo_after",
-                                                   "noise_floor"}));
+  EXPECT_EQ(keys(j["gap"]),
+            (std::set<std::string>{"before", "after", "holdout_before", "holdout_after",
+                                   "placebo_after", "noise_floor"}));
   ASSERT_EQ(j["effects"].size(), 1u);
   EXPECT_EQ(keys(j["effects"][0]),
             (std::set<std::string>{"name", "size", "interval", "p", "margin"}));
@@ -78,6 +78,23 @@ TEST_F(DiagnosisFiles, TheJsonHasTheFiguresOfTheDiagnosis) {
   EXPECT_EQ(j["advice"], json(d.advice));
   EXPECT_EQ(j["gap"], json::parse(R"({"before": 5.5, "after": 1.25, "holdout_before": 4.5,
       "holdout_after": 1.5, "placebo_after": 4.25, "noise_floor": 1.0})"));
+}
+
+// The placebo is judged by what was held out, where there is something.
+TEST_F(DiagnosisFiles, ThePlaceboStandsWithTheRowsThatItIsJudgedBy) {
+  d.by_series = {{"ucs", false, 5.5, 1.25, 3}, {"brazilian", true, 4.5, 1.5, 2}};
+  d.holdout = "brazilian";
+  const auto line = [&](const std::string &start) {
+    const auto text = diagnosis_text(study, d);
+    const auto from = text.find("\n  " + start);
+    return text.substr(from, text.find('\n', from + 1) - from);
+  };
+  EXPECT_NE(line("brazilian  ").find("held out; a placebo: 4.25"), std::string::npos);
+  EXPECT_EQ(line("all that was fitted").find("placebo"), std::string::npos);
+  d.by_series.pop_back();
+  d.holdout.clear();
+  EXPECT_NE(line("all that was fitted").find("floor 1; a placebo: 4.25"), std::string::npos)
+      << line("all that was fitted");
 }
 
 TEST_F(DiagnosisFiles, WhatCouldNotBeHadIsNullAndKeepsItsKey) {
