@@ -75,15 +75,15 @@ inline std::vector<std::string> operator+(std::vector<std::string> a, const std:
   return a;
 }
 
-inline std::vector<std::pair<std::string, std::string>> operator+(
-    std::vector<std::pair<std::string, std::string>> a,
-    const std::vector<std::pair<std::string, std::string>> &b) {
+using Values = std::vector<std::pair<std::string, std::string>>;  // deck variables
+
+inline Values operator+(Values a, const Values &b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
 }
 
 // {"alpha", "1"} -> {"-var", "alpha", "1"}
-inline std::vector<std::string> var(const std::vector<std::pair<std::string, std::string>> &values) {
+inline std::vector<std::string> var(const Values &values) {
   std::vector<std::string> arguments;
   for (const auto &[name, value] : values) {
     arguments.push_back("-var");
@@ -94,6 +94,9 @@ inline std::vector<std::string> var(const std::vector<std::pair<std::string, std
 }
 
 inline double largest(const std::vector<double> &x) { return *std::max_element(x.begin(), x.end()); }
+
+// Unbreakable bonds.
+inline const std::pair<std::string, std::string> kStrong{"sigma_c", "1e12"}, kTough{"tau_c", "1e12"};
 
 // Least squares slope of y over x for the points that `keep` picks.
 template <class Keep>

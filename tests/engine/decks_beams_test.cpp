@@ -8,6 +8,7 @@
 #include "bond_styles/laws/reference_table.h"
 #include "deck_tools.h"
 #include "fixes_deck.h"
+#include "warm_bonds.h"
 
 namespace {
 
@@ -16,10 +17,9 @@ using engine::EngineFolder;
 using engine::Table;
 
 const double pi = std::acos(-1.0);
-const std::pair<std::string, std::string> kStrong{"sigma_c", "1e12"}, kTough{"tau_c", "1e12"};
 
 Table beam(const EngineFolder &folder, const std::string &test,
-           const std::vector<std::pair<std::string, std::string>> &values, int ranks = 1) {
+           const Values &values, int ranks = 1) {
   return curve_of(folder, test, with_specimen("beam_small_2d.data") + var(values), ranks, 240);
 }
 
@@ -65,32 +65,12 @@ TEST(BendingDeck, reaction_equals_load_and_energy_equals_work) {
 }
 
 TEST(BendingDeck, warm_bonds_have_the_modulus_strength_and_creep_of_their_temperature) {
-  using Values = std::vector<std::pair<std::string, std::string>>;
   const auto largest_load = [](const Values &values) {
     EngineFolder folder;
     return largest(mean_load(beam(folder, "three_point_bending", values)));
   };
-  // 20 K above the reference at -1 % a kelvin: 0.8 times. Creep of next to nothing makes all of one bond style.
-  const Values warm{{"temperature", "320"}, {"reference", "300"}, {"creep_rate", "1e-90"}};
-  const Values cold{{"creep_rate", "1e-90"}};
-  const Values test{{"platen_speed", "0.05"}};
-  EXPECT_NEAR(largest_load(test + warm + Values{{"strength_slope", "-0.01"}}) /
-                  largest_load(test + cold + Values{{"sigma_c", "28e6"}, {"tau_c", "72e6"}}),
-              1.0, 1e-9);
-  const Values elastic{kStrong, kTough, {"max_strain", "0.002"}};
-  const double soft = largest_load(elastic + cold + Values{{"E_b", "20e9"}}), hard = largest_load(elastic + cold);
-  EXPECT_GT(hard, 1.05 * soft);
-  // its time step is that of the harder bonds, so that waves are not the same: a tenth of the difference
-  EXPECT_NEAR(largest_load(elastic + warm + Values{{"modulus_slope", "-0.01"}}), soft, 0.1 * (hard - soft));
-  // Arrhenius: exp(-Q/R (1/320 - 1/300)) = 12.25 times the rate
-  const Values creep{{"creep_stress", "10e6"}, {"creep_exponent", "1"}};
-  const double faster = std::exp(-100e3 / 8.31446261815324 * (1.0 / 320 - 1.0 / 300));
-  const double flowing = largest_load(elastic + creep + Values{{"creep_rate", std::to_string(5 * faster)}});
-  EXPECT_LT(flowing, 0.9 * hard);
-  // grains that slip or stick make much of a rounding of the rate: a hundredth of the difference
-  EXPECT_NEAR(largest_load(elastic + creep + Values{{"temperature", "320"}, {"reference", "300"},
-                                                   {"activation", "100e3"}, {"creep_rate", "5"}}),
-              flowing, 0.01 * (hard - flowing));
+  expect_bonds_of_their_temperature(largest_load, {{"platen_speed", "0.05"}},
+                                    {kStrong, kTough, {"max_strain", "0.002"}});
 }
 
 TEST(BendingDeck, a_notch_weakens_opens_and_carries_the_crack) {
@@ -125,22 +105,15 @@ TEST(BendingDeck, runs_a_notched_round_bar) {
   EXPECT_GT(largest(t.column("opening")), 0.0);
 }
 
-using Values = std::vector<std::pair<std::string, std::string>>;
-
 const Values kPrism = {{"dim", "3"}, {"width", "0.008"}, {"height", "0.010"}, {"length", "0.040"},
                        {"span", "0.0333"}, {"gap", "2e-5"}, {"sigma_c", "20e6"}};
-
-Values with(Values values, const Values &more) {
-  values.insert(values.end(), more.begin(), more.end());
-  return values;
-}
 
 // dF/dw of an unbroken beam of spheres.
 double bending_stiffness(const char *specimen, const Values &values) {
   EngineFolder folder;
   const Table t = curve_of(folder, "three_point_bending",
                            with_specimen(specimen) +
-                               var(with(values, {kStrong, kTough, {"max_strain", "0.003"}, {"platen_speed", "0.05"}})),
+                               var(values + Values{kStrong, kTough, {"max_strain", "0.003"}, {"platen_speed", "0.05"}}),
                            1, 240);
   const auto deflection = t.column("deflection");
   return slope_where(deflection, mean_load(t),
@@ -167,7 +140,7 @@ TEST(BendingDeck, a_prism_is_as_stiff_as_a_round_bar_of_its_grains) {
 TEST(BendingDeck, runs_a_prism_whole_and_notched) {
   EngineFolder a, b;
   const auto run = [](const EngineFolder &folder, const Values &more) {
-    return curve_of(folder, "three_point_bending", with_specimen("prism_small_3d.data") + var(with(kPrism, more)), 1, 240);
+    return curve_of(folder, "three_point_bending", with_specimen("prism_small_3d.data") + var(kPrism + more), 1, 240);
   };
   const Table plain = run(a, {{"platen_speed", "0.05"}});
   EXPECT_EQ(plain.completion, "stop_after_peak");

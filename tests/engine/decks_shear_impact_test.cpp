@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "deck_tools.h"
+#include "warm_bonds.h"
 
 namespace {
 
@@ -16,12 +17,11 @@ using engine::EngineFolder;
 using engine::Table;
 
 const double pi = std::acos(-1.0);
-const std::pair<std::string, std::string> kStrong{"sigma_c", "1e12"}, kTough{"tau_c", "1e12"};
 
 // ---- direct tension ----
 
 Table pulled(const EngineFolder &folder,
-             const std::vector<std::pair<std::string, std::string>> &values) {
+             const Values &values) {
   return curve_of(folder, "direct_tension", with_specimen("rectangle_small_2d.data") + var(values));
 }
 
@@ -67,7 +67,7 @@ TEST(TensionDeck, bonds_alone_are_as_stiff_in_tension_as_in_compression) {
 // ---- direct shear ----
 
 Table sheared(const EngineFolder &folder,
-              const std::vector<std::pair<std::string, std::string>> &values) {
+              const Values &values) {
   return curve_of(folder, "direct_shear", with_specimen("box_small_2d.data") + var(values), 1, 240);
 }
 
@@ -87,32 +87,12 @@ TEST(ShearDeck, holds_its_normal_load_and_balances_its_halves) {
 }
 
 TEST(ShearDeck, warm_bonds_have_the_modulus_strength_and_creep_of_their_temperature) {
-  using Values = std::vector<std::pair<std::string, std::string>>;
   const auto largest_load = [](const Values &values) {
     EngineFolder folder;
     return largest(sheared(folder, values).column("shear_stress"));
   };
-  // 20 K above the reference at -1 % a kelvin: 0.8 times. Creep of next to nothing makes all of one bond style.
-  const Values warm{{"temperature", "320"}, {"reference", "300"}, {"creep_rate", "1e-90"}};
-  const Values cold{{"creep_rate", "1e-90"}};
-  const Values test{{"max_shear", "0.004"}};
-  EXPECT_NEAR(largest_load(test + warm + Values{{"strength_slope", "-0.01"}}) /
-                  largest_load(test + cold + Values{{"sigma_c", "28e6"}, {"tau_c", "72e6"}}),
-              1.0, 1e-9);
-  const Values elastic{kStrong, kTough, {"max_shear", "0.0007"}};
-  const double soft = largest_load(elastic + cold + Values{{"E_b", "20e9"}}), hard = largest_load(elastic + cold);
-  EXPECT_GT(hard, 1.05 * soft);
-  // its time step is that of the harder bonds, so that waves are not the same: a tenth of the difference
-  EXPECT_NEAR(largest_load(elastic + warm + Values{{"modulus_slope", "-0.01"}}), soft, 0.1 * (hard - soft));
-  // Arrhenius: exp(-Q/R (1/320 - 1/300)) = 12.25 times the rate
-  const Values creep{{"creep_stress", "10e6"}, {"creep_exponent", "1"}};
-  const double faster = std::exp(-100e3 / 8.31446261815324 * (1.0 / 320 - 1.0 / 300));
-  const double flowing = largest_load(elastic + creep + Values{{"creep_rate", std::to_string(5 * faster)}});
-  EXPECT_LT(flowing, 0.9 * hard);
-  // grains that slip or stick make much of a rounding of the rate: a hundredth of the difference
-  EXPECT_NEAR(largest_load(elastic + creep + Values{{"temperature", "320"}, {"reference", "300"},
-                                                   {"activation", "100e3"}, {"creep_rate", "5"}}),
-              flowing, 0.01 * (hard - flowing));
+  expect_bonds_of_their_temperature(largest_load, {{"max_shear", "0.004"}},
+                                    {kStrong, kTough, {"max_shear", "0.0007"}});
 }
 
 TEST(ShearDeck, more_normal_load_more_strength_and_less_dilation) {
@@ -162,7 +142,7 @@ TEST(ShearDeck, runs_in_3d) {
 // ---- impact ----
 
 Table hit(const EngineFolder &folder,
-          const std::vector<std::pair<std::string, std::string>> &values, int ranks = 1) {
+          const Values &values, int ranks = 1) {
   return curve_of(folder, "impact", with_specimen("brazilian_small_3d.data") + var(values), ranks, 240);
 }
 

@@ -25,7 +25,6 @@ Table rectangle(const EngineFolder &folder,
   return curve_of(folder, "uniaxial_compression",
                   with_specimen("rectangle_small_2d.data") + var(values), ranks);
 }
-const std::pair<std::string, std::string> kStrong{"sigma_c", "1e12"}, kTough{"tau_c", "1e12"};
 
 // ---- ends that are not parallel ----
 
