@@ -19,7 +19,7 @@ namespace bondlab {
 namespace {
 
 struct Options {
-  std::string run, out, gap, plane, bonds, columns;
+  std::string run, out, gap, plane, bonds, columns, state;
   bool png = false, no_paraview = false;
 };
 
@@ -44,11 +44,16 @@ void show(const Options &options) {
   for (std::string word; words >> word;) read.columns.push_back(word);
   ViewOutput output;
   output.plane = options.plane;
+  output.state = options.state;
+  if (!options.state.empty() && !options.bonds.empty())
+    throw UserError("--bonds: the forces of a --state are those of its own bonds_STEP.txt; leave one of them out");
   output.bond_columns = read.columns;
   output.png = options.png;
   output.paraview = !options.no_paraview;
   const std::filesystem::path out =
-      options.out.empty() ? run / "view" : std::filesystem::path(options.out);
+      !options.out.empty()     ? std::filesystem::path(options.out)
+      : options.state.empty() ? run / "view"
+                              : run / ("view_" + options.state);
   const ViewWritten written = write_view(read_run(run, read), out, output);
   for (const std::filesystem::path &file : written.files) fmt::print("{}\n", file.string());
   for (const std::string &sentence : written.missing) fmt::print("{}\n", sentence);
@@ -64,7 +69,10 @@ void add_view(CLI::App &app) {
       ->add_option("RUN", options->run,
                    "folder of a run: OUT/runs/NUMBER-TEST-KEY, or where a deck was run by hand")
       ->required();
-  command->add_option("--out", options->out, "folder to write into (default: RUN/view)");
+  command->add_option("--out", options->out, "folder to write into (default: RUN/view, RUN/view_STATE)");
+  command->add_option("--state", options->state,
+                      "the pictures show this state instead of the end: a step of the frames on the way, or "
+                      "first, last, peak (the frame nearest to the largest load)");
   command->add_option("--gap", options->gap,
                       "bond gap (default: that of bond_install in the run's log)");
   command->add_option("--plane", options->plane,

@@ -2,10 +2,13 @@
 #include "view/frames.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "base/units.h"
 #include "base/user_error.h"
 #include "forward/frame_name.h"
+#include "report/number_text.h"
 
 namespace bondlab {
 
@@ -24,7 +27,49 @@ double time_of(const Curve &curve, long step) {
   return times[k - 1] + (times[k] - times[k - 1]) * (wanted - steps[k - 1]) / (steps[k] - steps[k - 1]);
 }
 
+// The step of the largest load; nothing without a curve that has a load.
+std::optional<double> peak_step(const Curve &curve) {
+  if (curve.rows() < 2 || !curve.has("step")) return std::nullopt;
+  for (const char *load : {"axial_stress", "shear_stress", "force_top"}) {
+    if (!curve.has(load)) continue;
+    const std::vector<double> &values = curve.column(load);
+    const auto peak = std::max_element(values.begin(), values.end()) - values.begin();
+    return curve.column("step")[static_cast<std::size_t>(peak)];
+  }
+  return std::nullopt;
+}
+
+std::string steps_of(const std::vector<RunFrame> &frames) {
+  std::vector<std::string> steps;
+  for (const RunFrame &frame : frames) steps.push_back(std::to_string(frame.step));
+  return join(steps);
+}
+
 }  // namespace
+
+RunFrame frame_of_state(const RunView &run, const std::string &state) {
+  const std::vector<RunFrame> frames = find_frames(run);
+  if (frames.empty())
+    throw UserError(Place{run.folder.string(), 0, 0},
+                    "the run has no particles_STEP.txt, so the end is the only state to show (run it with "
+                    "-var shots N, in a study variables = { shots = N })");
+  if (state == "first") return frames.front();
+  if (state == "last") return frames.back();
+  if (state == "peak") {
+    const std::optional<double> peak = peak_step(run.curve);
+    if (!peak)
+      throw UserError(Place{run.folder.string(), 0, 0},
+                      "there is no peak: the run has no curve of a load by steps (allowed: first, last, " +
+                          steps_of(frames) + ")");
+    return *std::min_element(frames.begin(), frames.end(), [&](const RunFrame &a, const RunFrame &b) {
+      return std::fabs(static_cast<double>(a.step) - *peak) < std::fabs(static_cast<double>(b.step) - *peak);
+    });
+  }
+  for (const RunFrame &frame : frames)
+    if (std::to_string(frame.step) == state) return frame;
+  throw UserError("there is no state '" + state + "' of this run (allowed: first, last, peak, " +
+                  steps_of(frames) + ")");
+}
 
 std::vector<RunFrame> find_frames(const RunView &run) {
   std::vector<RunFrame> frames;
@@ -60,6 +105,8 @@ RunView run_at(const RunView &run, const RunFrame &frame, const std::vector<std:
     particle.broken = 0;
     particle.fragment = -1;
   }
+  then.moment = "step " + count_text(frame.step);
+  if (frame.time != static_cast<double>(frame.step)) then.moment += ", " + format_quantity(frame.time, readable_unit(frame.time, "s"), 3);
   then.has_stress = !places.empty() && places.front().has_stress;
   for (ViewBond &bond : then.bonds) {
     if (bond.state == BondState::intact) continue;

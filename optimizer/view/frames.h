@@ -7,7 +7,8 @@
 //   curve, which has step and time. A series is a .pvd file: one name and time a frame.
 // Source: ParaView's PVD format, https://www.paraview.org/Wiki/ParaView/Data_formats (PVD File Format).
 // Units: SI; times in s.
-// Failure: UserError for a frame that can't be read or that has other particles than the run.
+// Failure: UserError for a frame that can't be read or that has other particles than the run, and for
+//   a state that isn't there (with those that are).
 // Limits: without a curve the time is the number of the step.
 #pragma once
 
@@ -26,6 +27,10 @@ struct RunFrame {
 };
 
 std::vector<RunFrame> find_frames(const RunView &run);  // by step
+
+// The frame of a state in words: "first", "last", "peak" (the frame nearest to the largest load of the
+// curve) or a step.
+RunFrame frame_of_state(const RunView &run, const std::string &state);
 
 // `columns` of the bond file, as in ViewOptions.
 RunView run_at(const RunView &run, const RunFrame &frame,

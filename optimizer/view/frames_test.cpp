@@ -10,6 +10,7 @@
 #include "base/user_error.h"
 #include "base/vtp_file.h"
 #include "forward/frame_name.h"
+#include "report/number_text.h"
 #include "report/xml_for_tests.h"
 #include "view/paraview.h"
 #include "view/run_for_tests.h"
@@ -153,6 +154,63 @@ TEST(Frames, ASeriesNamesItsFilesAndTimes) {
     }
     EXPECT_DOUBLE_EQ(last, 300e-6);
   }
+}
+
+TEST(Frames, AreNamedByWordsOrTheirSteps) {
+  const TestFolder folder;
+  write_run_with_frames(folder);
+  folder.write("curve.tsv",
+               "# bondlab-curve 1\n# names: step\ttime\tforce_top\n# units: 1\ts\tN\n0\t0\t0\n"
+               "100\t1e-4\t3\n200\t2e-4\t2\n# complete: end_of_run\n");
+  const RunView run = read_run(folder.path());
+  EXPECT_EQ(frame_of_state(run, "first").step, 50);
+  EXPECT_EQ(frame_of_state(run, "last").step, 300);
+  EXPECT_EQ(frame_of_state(run, "peak").step, 102) << "the load is largest at step 100";
+  EXPECT_EQ(frame_of_state(run, "300").step, 300);
+  try {
+    frame_of_state(run, "103");
+    FAIL();
+  } catch (const UserError &error) {
+    EXPECT_EQ(error.text(), "there is no state '103' of this run (allowed: first, last, peak, 50, 102, 300)");
+  }
+}
+
+TEST(Frames, AStateThatCantBeSaysWhy) {
+  const TestFolder folder;
+  write_lattice_run(folder);
+  const auto why = [&](const std::string &state) {
+    try {
+      frame_of_state(read_run(folder.path()), state);
+    } catch (const UserError &error) {
+      return error.text();
+    }
+    return std::string();
+  };
+  EXPECT_NE(why("first").find("-var shots N"), std::string::npos);
+  folder.write("particles_50.txt", lattice_dump(false));
+  EXPECT_NE(why("peak").find("no curve of a load"), std::string::npos);
+  EXPECT_EQ(why("first"), "");
+}
+
+TEST(Frames, PicturesShowTheStateAskedForAndTheSeriesAll) {
+  const TestFolder folder;
+  write_run_with_frames(folder);
+  const RunView run = read_run(folder.path());
+  ViewOutput output;
+  output.state = "102";
+  write_view(run, folder / "view", output);
+  const std::string cracks = read_text_file(folder / "view" / "cracks_by_mode.svg");
+  EXPECT_NE(cracks.find(counted(3, "bond", "bonds") + " broken"), std::string::npos);
+  EXPECT_NE(cracks.find("This is step 102"), std::string::npos);
+  EXPECT_NE(read_text_file(folder / "view" / "displacement.svg").find("to this moment"), std::string::npos);
+  EXPECT_NE(read_text_file(folder / "view" / "force_chains.svg").find("This is step 102"), std::string::npos);
+  EXPECT_EQ(read_text_file(folder / "view" / "specimen.svg").find("step 102"), std::string::npos) << "the start";
+  write_view(run, folder / "end", {});
+  const std::string at_end = read_text_file(folder / "end" / "cracks_by_mode.svg");
+  EXPECT_NE(at_end.find(counted(7, "bond", "bonds") + " broken"), std::string::npos);
+  EXPECT_EQ(at_end.find("This is"), std::string::npos);
+  for (const char *file : {"frames/bonds_300.vtp", "frames/particles_50.vtp", "particles.pvd"})
+    EXPECT_EQ(read_text_file(folder / "view" / file), read_text_file(folder / "end" / file)) << file;
 }
 
 }  // namespace

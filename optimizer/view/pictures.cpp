@@ -147,7 +147,9 @@ void add_cracks(Drawing &drawing, const RunView &run, const Projection &projecti
 
 Drawing specimen_picture(const RunView &run, const Projection &projection) {
   Drawing drawing;
-  drawing.title = run.has_start ? "Specimen" : "Specimen, at the end";
+  drawing.title = run.has_start         ? "Specimen"
+                  : run.moment.empty() ? "Specimen, at the end"
+                                       : "Specimen, at " + run.moment;
   double low = INFINITY, high = 0;
   for (const ViewParticle &p : run.particles) low = std::min(low, p.r), high = std::max(high, p.r);
   const bool equal = high - low < 1e-6 * high;
@@ -247,8 +249,9 @@ Drawing displacements(const RunView &run, const Projection &projection) {
   add_discs(drawing, run, projection, at_end,
             [&](std::size_t i) { return scale_colour(full > 0 ? size[i] / full : 0); });
   drawing.bar = bar_from("displacement", 0, full, "m", largest > full);
-  drawing.sentences.push_back("From the start to the end of the test; the largest is " +
-                              with_prefix(largest, "m") + ".");
+  drawing.sentences.push_back(
+      (run.moment.empty() ? "From the start to the end of the test" : "From the start to this moment") +
+      std::string("; the largest is ") + with_prefix(largest, "m") + ".");
   if (projection.whole() || drawing.discs.empty()) return drawing;
 
   // Arrows of about 150 particles, one a square of the picture.

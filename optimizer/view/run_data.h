@@ -71,6 +71,7 @@ struct RunView {
   long force_step = 0;
   std::vector<Vector3> force_places;        // of the particles at that step; empty: as at the end
   Curve curve;                              // without rows when there is none
+  std::string moment;                       // "step 4,000, 1.2 ms" of a frame; "": the end
   std::string test;                         // "uniaxial_compression"; "" when not known
   std::map<std::string, double> variables;  // deck variables in SI, of a run of the store
   std::vector<std::string> missing;         // sentences

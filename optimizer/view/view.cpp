@@ -64,11 +64,16 @@ void add_series(const RunView &run, const fs::path &folder, const ViewOutput &ou
 
 }  // namespace
 
-ViewWritten write_view(const RunView &run, const fs::path &folder, const ViewOutput &output) {
+ViewWritten write_view(const RunView &whole_run, const fs::path &folder, const ViewOutput &output) {
+  const RunView run = output.state.empty()
+                          ? whole_run
+                          : run_at(whole_run, frame_of_state(whole_run, output.state), output.bond_columns);
   ViewWritten written;
   written.missing = run.missing;
   make_folder(folder);
-  const auto put = [&](const std::string &name, const Drawing &drawing) {
+  const auto put = [&](const std::string &name, Drawing drawing) {
+    const bool of_start = name.find("specimen") == 0 && run.has_start;
+    if (!run.moment.empty() && !of_start) drawing.sentences.push_back("This is " + run.moment + ".");
     const std::string svg = draw(drawing);
     if (svg.empty()) return;
     write_file(folder / (name + ".svg"), svg);
@@ -102,7 +107,7 @@ ViewWritten write_view(const RunView &run, const fs::path &folder, const ViewOut
       write_file(folder / "bonds.vtp", vtp_text(bonds));
       written.files.push_back(folder / "bonds.vtp");
     }
-    add_series(run, folder, output, written);
+    add_series(whole_run, folder, output, written);
   }
   return written;
 }
