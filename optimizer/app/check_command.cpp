@@ -90,8 +90,8 @@ void print_identification(const Study &study) {
                join(p.sets));
   if (!study.targets.empty()) fmt::print("targets\n");
   for (const Target &t : study.targets)
-    fmt::print("  {:<14} {}, sd {} ({} of test {})\n", t.name, format_quantity(t.value, t.unit),
-               format_quantity(t.sd, t.unit), t.response, t.test);
+    fmt::print("  {:<14} {}, sd {} ({})\n", t.name, format_quantity(t.value, t.unit),
+               format_quantity(t.sd, t.unit), source_text(t));
   if (!study.data) return;
   fmt::print("measured curves\n");
   for (const Measurement &series : study.data->measurements)
@@ -113,10 +113,9 @@ void print_fits(const Study &study, const std::map<std::string, std::optional<Ru
     double sum = 0;
     std::vector<std::string> tests, all = fit.targets;
     all.insert(all.end(), fit.predicted.begin(), fit.predicted.end());
-    for (const std::string &name : all) {
-      const std::string &test = study.target(name).test;
-      if (std::find(tests.begin(), tests.end(), test) == tests.end()) tests.push_back(test);
-    }
+    for (const std::string &name : all)
+      for (const std::string &test : tests_of(study, study.target(name)))
+        if (std::find(tests.begin(), tests.end(), test) == tests.end()) tests.push_back(test);
     for (const std::string &name : tests) {
       const auto &cost = costs.at(name);
       known = known && cost;

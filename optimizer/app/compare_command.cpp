@@ -21,6 +21,7 @@
 #include "forward/engine_forward_model.h"
 #include "forward/interrupt.h"
 #include "response/check.h"
+#include "response/envelope.h"
 #include "response/response.h"
 #include "response/run_quality.h"
 
@@ -39,7 +40,8 @@ struct Options {
 std::set<std::string> tests_of(const Study &study, const PublishedCase &one) {
   std::set<std::string> tests;
   for (const PublishedQuantity &quantity : study.quantities)
-    if (one.expected.empty() || one.expected.count(quantity.name)) tests.insert(quantity.test);
+    if (one.expected.empty() || one.expected.count(quantity.name))
+      for (const std::string &test : tests_of(study, quantity)) tests.insert(test);
   return tests;
 }
 
@@ -66,6 +68,37 @@ std::string checks_table(const Study &study, const std::vector<std::string> &tes
   return page + "\n";
 }
 
+using RunsOfCase = std::map<std::string, const ForwardOutcome *>;  // on one packing, by the study's test
+
+// SI; a runtime_error says why there is none.
+double figure_of(const Study &study, const PublishedQuantity &quantity, const RunsOfCase &runs) {
+  if (!quantity.envelope.empty())
+    return envelope_figure(envelope_of(study.envelope(quantity.envelope), study, runs), quantity.response);
+  const ForwardOutcome &outcome = *runs.at(quantity.test);
+  if (!outcome.ok) throw std::runtime_error(outcome.failure.message);
+  const auto &response = study.test(quantity.test).definition.responses.at(quantity.response);
+  return evaluate(response.function, outcome.curve, {outcome.deck_variables});
+}
+
+// Nothing where a test of the quantity wasn't asked for in this case.
+void add_figure(const Study &study, const PublishedQuantity &quantity, const RunsOfCase &runs,
+                std::map<std::string, PublishedFigure> &figures) {
+  bool broke_off = false;
+  for (const std::string &test : tests_of(study, quantity)) {
+    const auto found = runs.find(test);
+    if (found == runs.end()) return;
+    broke_off = broke_off || !found->second->ok;
+  }
+  PublishedFigure &figure = figures[quantity.name];
+  try {
+    figure.add(figure_of(study, quantity, runs));
+  } catch (const std::runtime_error &error) {
+    ++figure.failed;
+    figure.failed_runs += broke_off;
+    figure.trouble = error.what();
+  }
+}
+
 void compare(const Options &options) {
   const Study study = read_study(options.study);
   check_response_functions(study);
@@ -86,6 +119,7 @@ void compare(const Options &options) {
   struct Slot {
     std::size_t case_index;
     std::string test;
+    int packing;
   };
   std::vector<ForwardRequest> requests;
   std::vector<Slot> slots;
@@ -93,7 +127,7 @@ void compare(const Options &options) {
     for (const std::string &test : tests_of(study, study.cases[k]))
       for (int packing = 0, packings = packings_of(study, study.cases[k], options); packing < packings; ++packing) {
         requests.push_back({study.cases[k].test(test), deck_variables(study, test, study.cases[k].values), packing});
-        slots.push_back({k, test});
+        slots.push_back({k, test, packing});
       }
   ForwardSettings settings;
   settings.results = results_directory(options.out, study.name);
@@ -104,27 +138,19 @@ void compare(const Options &options) {
   const std::vector<ForwardOutcome> outcomes = model.run(requests, [](const BatchProgress &) {});
 
   std::vector<std::string> tests_run;
-  for (const Slot &slot : slots) tests_run.push_back(slot.test);
-  PublishedFigures figures(study.cases.size());
+  std::map<std::pair<std::size_t, int>, RunsOfCase> runs;  // by case and packing
   double seconds = 0;
   int failed = 0;
   for (std::size_t r = 0; r < outcomes.size(); ++r) {
+    tests_run.push_back(slots[r].test);
+    runs[{slots[r].case_index, slots[r].packing}][slots[r].test] = &outcomes[r];
     seconds += outcomes[r].wall_seconds;
     failed += !outcomes[r].ok;
-    for (const PublishedQuantity &quantity : study.quantities) {
-      if (quantity.test != slots[r].test) continue;
-      PublishedFigure &figure = figures[slots[r].case_index][quantity.name];
-      try {
-        if (!outcomes[r].ok) throw std::runtime_error(outcomes[r].failure.message);
-        const auto &response = study.test(quantity.test).definition.responses.at(quantity.response);
-        figure.add(evaluate(response.function, outcomes[r].curve, {outcomes[r].deck_variables}));
-      } catch (const std::runtime_error &error) {
-        ++figure.failed;
-        figure.failed_runs += !outcomes[r].ok;
-        figure.trouble = error.what();
-      }
-    }
   }
+  PublishedFigures figures(study.cases.size());
+  for (const auto &[where, of_case] : runs)
+    for (const PublishedQuantity &quantity : study.quantities)
+      add_figure(study, quantity, of_case, figures[where.first]);
   PublishedTables tables = published_tables(study, chosen, figures);
   tables.page += checks_table(study, tests_run, outcomes);
   const std::filesystem::path folder = settings.results;

@@ -140,7 +140,7 @@ void Column::add(std::size_t k, PublishedTables &tables) {
   const auto optional = [](bool there, double value) { return there ? fmt::format("{:.9g}", value) : "nan"; };
   tables.tsv += fmt::format(
       "{}\t{}\t{}\t{}\t{:.9g}\t{:.9g}\t{:.9g}\t{}\t{}\t{}\t{}\n", one.name, quantity_.name,
-      study_.test(quantity_.test).definition.responses.at(quantity_.response).unit,
+      unit_of(study_, quantity_),
       optional(known, known ? expected->second : 0), sd == one.expected_sd.end() ? 0.0 : sd->second, ours,
       figure.sd(), figure.count, figure.failed, optional(known, known ? ours - expected->second : 0),
       !known ? "unknown" : ok ? "yes" : "no");

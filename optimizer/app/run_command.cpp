@@ -27,6 +27,7 @@
 #include "forward/interrupt.h"
 #include "forward/run_plan.h"
 #include "report/envelope_plot.h"
+#include "report/from_fit.h"
 #include "report/gnuplot.h"
 #include "response/check.h"
 #include "response/response.h"
@@ -73,6 +74,11 @@ const Target *target_of(const Study &study, const std::string &test, const std::
   return nullptr;
 }
 
+std::string beside_measured(const Target &target, double value) {
+  return fmt::format("measured {}, {:+.1f} %, {:+.1f} sd", format_quantity(target.value, target.unit),
+                     100 * (value / target.value - 1), (value - target.value) / target.sd);
+}
+
 // The platens' speed in a deck; empty where nothing is driven (impact).
 std::string speed_variable(const TestEntry &test) {
   for (const char *name : {"platen_speed", "shear_speed"})
@@ -103,9 +109,7 @@ void print_responses(const Study &study, const TestEntry &test, const ForwardOut
       const std::string unit = target ? target->unit : readable_unit(value, response.unit);
       shown = format_quantity(value, unit);
       if (target)
-        beside =
-            fmt::format("measured {}, {:+.1f} %, {:+.1f} sd", format_quantity(target->value, unit),
-                        100 * (value / target->value - 1), (value - target->value) / target->sd);
+        beside = beside_measured(*target, value);
       if (half) beside += (beside.empty() ? "" : "; ") + shift_at_half_speed(response.function, value, *half);
     } catch (const ResponseError &error) {
       shown = std::string("none: ") + error.what();
@@ -133,10 +137,28 @@ std::vector<StrengthEnvelope> envelopes_through(const Study &study, const std::v
   return envelopes;
 }
 
-void show_envelopes(const std::vector<StrengthEnvelope> &envelopes, const std::filesystem::path &folder) {
+// The figures of an envelope that the study has targets for.
+void print_targets(const Study &study, const StrengthEnvelope &envelope) {
+  for (const Target &target : study.targets) {
+    if (target.envelope != envelope.name) continue;
+    try {
+      const double value = envelope_figure(envelope, target.response);
+      fmt::print("  {:<16} {:<16} {}\n", target.response, format_quantity(value, target.unit),
+                 beside_measured(target, value));
+    } catch (const ResponseError &error) {
+      fmt::print("  {:<16} none: {}\n", target.response, error.what());
+    }
+  }
+}
+
+void show_envelopes(const Study &study, const std::vector<StrengthEnvelope> &envelopes,
+                    const std::filesystem::path &folder) {
   if (envelopes.empty()) return;
+  std::vector<ReportEnvelope> drawn;
   for (const StrengthEnvelope &envelope : envelopes) {
+    drawn.push_back(report_envelope(study, envelope));
     fmt::print("envelope {}: {}\n", envelope.name, envelope_text(envelope));
+    print_targets(study, envelope);
     for (const EnvelopePoint &point : envelope.points)
       fmt::print("  {:<16} {} {}, {} {}\n", point.test, envelope.over,
                  format_quantity(point.over, envelope.unit), envelope.response,
@@ -144,7 +166,7 @@ void show_envelopes(const std::vector<StrengthEnvelope> &envelopes, const std::f
     for (const std::string &sentence : envelope.left_out) fmt::print("  left out: {}\n", sentence);
   }
   try {
-    const Plot plot = envelope_plot(envelopes);
+    const Plot plot = envelope_plot(drawn);
     draw_plot(plot, folder);
     fmt::print("  {}\n", (folder / (plot.name + ".svg")).string());
   } catch (const UserError &error) {
@@ -205,7 +227,7 @@ void run(const Options &options) {
   }
   const std::vector<StrengthEnvelope> envelopes = envelopes_through(study, tests, outcomes);
   const std::filesystem::path folder = settings.results;
-  show_envelopes(envelopes, folder);
+  show_envelopes(study, envelopes, folder);
   write_file(folder / "run.json", run_record(study, values, tests, outcomes, envelopes));
   if (!failures.empty()) throw RunsFailed(failures);
 }

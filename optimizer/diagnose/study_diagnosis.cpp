@@ -354,6 +354,10 @@ StudyDiagnosis diagnose_study(const Study &study, const std::vector<EffectDefini
           " (some packing of the simulation gives no figure, or all the same)";
     say(one);
   }
+  for (const auto &one : targets_of_envelopes(study)) {
+    lost.push_back("not compared: " + one + " (a diagnosis compares figures of single tests)");
+    say(lost.back());
+  }
   settle(model, series, holdout, say);
   model.add_effects();
   {

@@ -184,6 +184,14 @@ std::vector<std::string> not_modelled(const std::vector<MeasuredSeries> &series,
   return out;
 }
 
+std::vector<std::string> targets_of_envelopes(const Study &study) {
+  std::vector<std::string> out;
+  for (const auto &target : study.targets)
+    if (!study.data && !target.envelope.empty())
+      out.push_back(target.name + ", " + source_text(target));
+  return out;
+}
+
 std::vector<ProbedSeries> that_scatter(std::vector<ProbedSeries> series,
                                        const Eigen::MatrixXd &by_packing) {
   Eigen::Index row = 0;

@@ -42,6 +42,10 @@ std::vector<Eigen::Index> keep_modelled(std::vector<MeasuredSeries> &series,
 std::vector<std::string> not_modelled(const std::vector<MeasuredSeries> &series,
                                       const std::vector<ProbedSeries> &model);
 
+// "TARGET, cohesion of envelope NAME" of the targets that no row of a single test can hold; none when
+// curves were measured instead of targets.
+std::vector<std::string> targets_of_envelopes(const Study &study);
+
 // Leaves out quantities whose simulated rows (packings x rows) are not finite or do not scatter.
 std::vector<ProbedSeries> that_scatter(std::vector<ProbedSeries> series,
                                        const Eigen::MatrixXd &by_packing);

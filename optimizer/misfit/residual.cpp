@@ -21,6 +21,7 @@ ResidualRow residual(const Target &target, const ResponseValue &simulated, doubl
   ResidualRow row;
   row.target = target.name;
   row.test = target.test;
+  row.envelope = target.envelope;
   row.response = target.response;
   row.packing = packing;
   row.measured = target.value;

@@ -28,7 +28,7 @@ struct ResponseValue {
 };
 
 struct ResidualRow {
-  std::string target, test, response;
+  std::string target, test, envelope, response;  // of test and envelope one is empty
   int packing = 0;
   double measured = 0, simulated = 0, sd = 0;
   double value = 0;  // NaN when `why` is not empty

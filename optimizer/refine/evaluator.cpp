@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -39,7 +40,8 @@ void Evaluator::run(const std::vector<TransformedPoint> &points, const TargetInd
 void Evaluator::run(const std::vector<TransformedPoint> &points, const std::vector<int> &packings,
                     const TargetIndices &targets, const std::string &phase) {
   std::set<std::string> tests;
-  for (const std::size_t target : targets) tests.insert(study_.targets.at(target).test);
+  for (const std::size_t target : targets)
+    for (const std::string &test : tests_of(study_, study_.targets.at(target))) tests.insert(test);
 
   std::vector<ForwardRequest> requests;
   std::vector<Key> keys;
@@ -67,6 +69,8 @@ void Evaluator::run(const std::vector<TransformedPoint> &points, const std::vect
 
   auto outcomes = model_.run(requests, progress_);
   for (std::size_t i = 0; i < outcomes.size(); ++i) keep(keys[i], std::move(outcomes[i]));
+  for (const auto &point : points)
+    for (const int packing : packings) add_envelope_figures(point, packing);
 
   if (counts_.failed > study_.options.max_failed) {
     std::string text = fmt::format(
@@ -110,9 +114,33 @@ void Evaluator::keep(const Key &key, ForwardOutcome outcome) {
   runs_.emplace(key, std::move(run));
 }
 
+void Evaluator::add_envelope_figures(const TransformedPoint &point, int packing) {
+  for (const auto &target : study_.targets) {
+    const Key wanted = key(target.name, packing, point);
+    if (target.envelope.empty() || of_envelopes_.count(wanted)) continue;
+    const std::vector<std::string> tests = tests_of(study_, target);
+    if (!std::all_of(tests.begin(), tests.end(),
+                     [&](const std::string &test) { return outcome(point, test, packing); }))
+      continue;
+    ResponseValue value{nan, ""};
+    try {
+      value.value =
+          envelope_figure(*envelope(point, study_.envelope(target.envelope), packing), target.response);
+      if (!std::isfinite(value.value)) value = {nan, "the response is not a finite number"};
+    } catch (const ResponseError &error) {
+      value.why = error.what();
+    }
+    of_envelopes_.emplace(wanted, std::move(value));
+  }
+}
+
 ResponseValue Evaluator::value(const TransformedPoint &point, std::size_t target,
                                int packing) const {
   const auto &entry = study_.targets.at(target);
+  if (!entry.envelope.empty()) {
+    const auto of_envelope = of_envelopes_.find(key(entry.name, packing, point));
+    return of_envelope == of_envelopes_.end() ? ResponseValue{nan, "not run"} : of_envelope->second;
+  }
   const auto found = runs_.find(key(entry.test, packing, point));
   if (found == runs_.end()) return {nan, "not run"};
   return found->second.responses.at(entry.name);
@@ -129,6 +157,15 @@ const ForwardOutcome *Evaluator::outcome(const TransformedPoint &point, const st
                                          int packing) const {
   const auto found = runs_.find(key(test, packing, point));
   return found == runs_.end() ? nullptr : &found->second.outcome;
+}
+
+std::optional<StrengthEnvelope> Evaluator::envelope(const TransformedPoint &point,
+                                                    const EnvelopeEntry &entry, int packing) const {
+  std::map<std::string, const ForwardOutcome *> outcomes;
+  for (const std::string &test : entry.tests)
+    if (const ForwardOutcome *found = outcome(point, test, packing)) outcomes[test] = found;
+  if (outcomes.empty()) return std::nullopt;
+  return envelope_of(entry, study_, outcomes);
 }
 
 std::vector<LedgerPoint> Evaluator::ledger() const {

@@ -6,7 +6,8 @@
 //   test, point and packing that was not asked for before, keyed by the exact bits of the physical
 //   values. Everything above (design, Jacobian, Marquardt, a second fit with more targets) goes
 //   through here, so that no run is made twice even beneath a solver that asks for the same point
-//   again, and every run ever made can serve as evidence.
+//   again, and every run ever made can serve as evidence. A figure of an envelope needs the runs of
+//   all its tests and is had once the last of them is there.
 // Units: SI. Failure: a run that failed, or a curve that a response refuses, is a value with a
 //   reason. FitFailed when more runs failed than the study allows; UserError and Interrupted of the
 //   forward model pass through.
@@ -16,6 +17,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -24,6 +26,7 @@
 #include "forward/forward_model.h"
 #include "misfit/residual.h"
 #include "refine/fit_result.h"
+#include "response/envelope.h"
 #include "study/parameter_space.h"
 #include "study/study.h"
 
@@ -66,6 +69,10 @@ class Evaluator {
   const ForwardOutcome *outcome(const TransformedPoint &point, const std::string &test,
                                 int packing = 0) const;
 
+  // The envelope through those of its tests that were run; nothing when none was.
+  std::optional<StrengthEnvelope> envelope(const TransformedPoint &point, const EnvelopeEntry &entry,
+                                           int packing = 0) const;
+
   // Points of packing 0 in the order they were first asked for.
   const std::vector<TransformedPoint> &points() const { return points_; }
 
@@ -80,17 +87,19 @@ class Evaluator {
 
   struct Run {
     ForwardOutcome outcome;
-    std::map<std::string, ResponseValue> responses;  // by target name
+    std::map<std::string, ResponseValue> responses;  // by target name; those of this test
   };
 
   Key key(const std::string &test, int packing, const TransformedPoint &point) const;
   void keep(const Key &key, ForwardOutcome outcome);
+  void add_envelope_figures(const TransformedPoint &point, int packing);
 
   const Study &study_;
   const ParameterSpace &space_;
   ForwardModel &model_;
   Progress progress_;
   std::map<Key, Run> runs_;
+  std::map<Key, ResponseValue> of_envelopes_;  // the key's name is the target's
   std::vector<TransformedPoint> points_;
   std::vector<std::string> phases_;                      // of points_
   std::map<std::vector<double>, std::size_t> position_;  // physical values -> index into points_

@@ -12,7 +12,8 @@ constexpr int usual_jacobians = 1, usual_trials = 2, usual_polish = 4;
 
 int count_tests(const Study &study, const TargetIndices &targets) {
   std::set<std::string> tests;
-  for (const std::size_t target : targets) tests.insert(study.targets[target].test);
+  for (const std::size_t target : targets)
+    for (const std::string &test : tests_of(study, study.targets[target])) tests.insert(test);
   return static_cast<int>(tests.size());
 }
 

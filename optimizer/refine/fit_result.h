@@ -14,12 +14,13 @@
 #include <vector>
 
 #include "forward/forward_model.h"
+#include "response/envelope.h"
 #include "study/parameter_space.h"
 
 namespace bondlab {
 
 struct TargetResult {
-  std::string name, test, response, unit;
+  std::string name, test, envelope, response, unit;  // of test and envelope one is empty
   double measured = 0;
   double sd = 0;         // of the measurement
   double tolerance = 0;  // |simulated - measured| that counts as met
@@ -116,6 +117,7 @@ struct SingleFit {
   std::vector<HistoryEntry> history;
   std::vector<PackingScatter> packings;
   std::vector<TestOutcome> best;  // one a test, on the packing used in the fit
+  std::vector<StrengthEnvelope> envelopes;  // the study's, through the tests of `best`
   std::vector<Finding> findings;
   std::vector<std::string> notes;  // what was done and why, plain words, in order
   FitCounts runs;

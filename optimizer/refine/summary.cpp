@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "base/units.h"
 #include "refine/feasibility.h"
@@ -29,6 +29,7 @@ TargetResult target_result(const Evaluator &evaluator, std::size_t index, double
   TargetResult result;
   result.name = target.name;
   result.test = target.test;
+  result.envelope = target.envelope;
   result.response = target.response;
   result.unit = target.unit;
   result.measured = target.value;
@@ -69,15 +70,18 @@ PackingScatter packing_scatter(const Evaluator &evaluator, std::size_t index,
 }
 
 void add_outcomes(const Evaluator &evaluator, const TransformedPoint &point, SingleFit &result) {
-  std::set<std::string> tests;
-  for (const auto &target : result.targets) {
-    if (!tests.insert(target.test).second) continue;
-    const auto *outcome = evaluator.outcome(point, target.test);
+  const Study &study = evaluator.study();
+  std::vector<std::string> tests;
+  for (const auto &target : result.targets)
+    for (const std::string &test : tests_of(study, study.target(target.name)))
+      if (std::find(tests.begin(), tests.end(), test) == tests.end()) tests.push_back(test);
+  for (const std::string &test : tests) {
+    const auto *outcome = evaluator.outcome(point, test);
     if (!outcome) continue;
     TestOutcome best;
-    best.test = target.test;
+    best.test = test;
     best.outcome = *outcome;
-    best.quality = run_quality(evaluator.study().test(target.test), *outcome);
+    best.quality = run_quality(study.test(test), *outcome);
     const auto imbalance = best.quality.find("platen_imbalance");
     if (imbalance != best.quality.end() && imbalance->second > noticeable_imbalance) {
       Finding finding;
@@ -86,11 +90,13 @@ void add_outcomes(const Evaluator &evaluator, const TransformedPoint &point, Sin
           "test {}: the forces on the two platens differ by up to {:.0f} % between 40 and 60 % of "
           "the peak: the "
           "loading is not quasi-static, a slower platen is advisable",
-          target.test, 100 * imbalance->second);
+          test, 100 * imbalance->second);
       result.findings.push_back(std::move(finding));
     }
     result.best.push_back(std::move(best));
   }
+  for (const EnvelopeEntry &entry : study.envelopes)
+    if (auto envelope = evaluator.envelope(point, entry)) result.envelopes.push_back(std::move(*envelope));
 }
 
 // Parameters, judged with measurement and packings together.

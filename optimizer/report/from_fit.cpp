@@ -42,14 +42,19 @@ std::string kind_word(FindingKind kind) {
   return "other";
 }
 
-ReportTarget target_of(const Study &study, const TargetResult &t) {
-  ReportTarget r;
-  r.name = t.name, r.test = t.test, r.unit = t.unit;
+std::string function_of(const Study &study, const TargetResult &t) {
+  if (!t.envelope.empty()) return "envelope." + t.response;
   const auto &responses = study.test(t.test).definition.responses;
   const auto response = responses.find(t.response);
   if (response == responses.end())
     throw UserError("the test '" + t.test + "' has no response '" + t.response + "'");
-  r.function = response->second.function;
+  return response->second.function;
+}
+
+ReportTarget target_of(const Study &study, const TargetResult &t) {
+  ReportTarget r;
+  r.name = t.name, r.test = t.test, r.envelope = t.envelope, r.unit = t.unit;
+  r.function = function_of(study, t);
   r.measured = shown(t.measured, t.unit), r.simulated = shown(t.simulated, t.unit);
   r.sd = shown_width(t.sd, t.unit), r.tolerance = shown_width(t.tolerance, t.unit);
   r.noise_sd = shown_width(t.noise_sd, t.unit);
@@ -118,6 +123,8 @@ ReportFit fit_of(const Study &study, const FitResult &result, const SingleFit &f
     r.packings.push_back(packing);
   }
   for (const TestOutcome &best : fit.best) r.best_runs.push_back(run_files(study, best, directory));
+  for (const StrengthEnvelope &envelope : fit.envelopes)
+    r.envelopes.push_back(report_envelope(study, envelope));
   for (const Finding &finding : fit.findings)
     r.findings.push_back({kind_word(finding.kind), finding.text, finding.targets, finding.measured,
                           finding.low, finding.high, finding.points});
@@ -149,6 +156,31 @@ std::string path_in_result(const std::filesystem::path &path,
   const auto relative = inner.lexically_relative(outer);
   const bool inside = !relative.empty() && *relative.begin() != "..";
   return inside ? relative.generic_string() : inner.generic_string();
+}
+
+ReportEnvelope report_envelope(const Study &study, const StrengthEnvelope &envelope) {
+  ReportEnvelope r;
+  r.name = envelope.name, r.response = envelope.response, r.over = envelope.over;
+  r.unit = envelope.unit, r.left_out = envelope.left_out, r.why_none = envelope.why_none;
+  for (const EnvelopePoint &point : envelope.points) {
+    r.tests.push_back(point.test);
+    r.over_values.push_back(shown(point.over, r.unit));
+    r.values.push_back(shown(point.value, r.unit));
+  }
+  if (envelope.line) {
+    r.cohesion = shown(envelope.line->cohesion, r.unit);
+    r.cohesion_error = shown_width(envelope.line->cohesion_error, r.unit);
+    r.friction_angle = envelope.line->friction_angle;
+    r.friction_angle_error = envelope.line->friction_angle_error;
+  }
+  for (const Target &target : study.targets) {
+    if (target.envelope != envelope.name) continue;
+    const bool cohesion = target.response == "cohesion";
+    const std::string unit = cohesion ? r.unit : "deg";
+    (cohesion ? r.measured_cohesion : r.measured_friction_angle) = shown(target.value, unit);
+    (cohesion ? r.measured_cohesion_sd : r.measured_friction_angle_sd) = shown_width(target.sd, unit);
+  }
+  return r;
 }
 
 ReportInput report_input(const Study &study, const FitResult &result,

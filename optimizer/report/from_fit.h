@@ -6,7 +6,7 @@
 //   runs, named relative to the result's directory so that the directory can be moved; measured
 //   curves are copied, because their folder may go.
 // Units: SI in, shown units out.
-// Failure: UserError when a target names a response its test doesn't have (a study that
+// Failure: UserError when a target names a test or a response that isn't there (a study that
 //   read_study() accepted never does).
 #pragma once
 
@@ -22,6 +22,9 @@ namespace bondlab {
 // and specimens/ in it give the ledger and the figures of the packings.
 ReportInput report_input(const Study &study, const FitResult &result,
                          const std::filesystem::path &directory);
+
+// With the study's targets for it as what was measured.
+ReportEnvelope report_envelope(const Study &study, const StrengthEnvelope &envelope);
 
 // The path as the report names it: relative to `directory` when it lies in it.
 std::string path_in_result(const std::filesystem::path &path,

@@ -197,5 +197,52 @@ TEST(ResultFolder, AddsThePackingsFiguresWhereTheyAre) {
   EXPECT_EQ(specimen.coordination, 4.12);
 }
 
+Target of_envelope(const std::string &response, const std::string &unit, double value) {
+  Target target;
+  target.name = response, target.envelope = "peak", target.response = response, target.unit = unit;
+  target.value = value, target.sd = value / 10;
+  return target;
+}
+
+// A line with c = 8 MPa and 45 degrees, one test left out.
+StrengthEnvelope strength_envelope() {
+  StrengthEnvelope envelope;
+  envelope.name = "peak", envelope.unit = "MPa", envelope.response = "tau", envelope.over = "sigma_n";
+  envelope.points = {{"a", 2e6, 10e6}, {"b", 5e6, 13e6}, {"c", 10e6, 18e6}};
+  envelope.left_out = {"d: it crashed"};
+  envelope.line = EnvelopeLine{8e6, 0.5e6, 45, 2};
+  return envelope;
+}
+
+TEST(FromFit, SetsAnEnvelopeBesideItsTargets) {
+  TestFolder folder;
+  Study study = small_study();
+  study.targets.push_back(of_envelope("cohesion", "kPa", 9e6));
+  study.targets.push_back(of_envelope("friction_angle", "rad", std::atan(1.0)));
+  FitResult result = small_result(folder.path());
+  TargetResult target;
+  target.name = "cohesion", target.envelope = "peak", target.response = "cohesion", target.unit = "kPa";
+  target.measured = 9e6, target.simulated = 8e6;
+  result.fits[0].targets.push_back(target);
+  result.fits[0].envelopes.push_back(strength_envelope());
+  const ReportFit fit = report_input(study, result, folder.path()).fits.at(0);
+  EXPECT_EQ(fit.targets.at(1).function, "envelope.cohesion");
+  EXPECT_EQ(fit.targets.at(1).envelope, "peak");
+  ASSERT_EQ(fit.envelopes.size(), 1u);
+  const ReportEnvelope &envelope = fit.envelopes[0];
+  EXPECT_EQ(envelope.over_values, (std::vector<double>{2, 5, 10}));
+  EXPECT_DOUBLE_EQ(envelope.cohesion, 8);
+  EXPECT_DOUBLE_EQ(envelope.friction_angle, 45);
+  EXPECT_DOUBLE_EQ(envelope.measured_cohesion, 9) << "MPa, as the envelope, not kPa as the target";
+  EXPECT_DOUBLE_EQ(envelope.measured_cohesion_sd, 0.9);
+  EXPECT_DOUBLE_EQ(envelope.measured_friction_angle, 45);
+  EXPECT_DOUBLE_EQ(envelope.measured_friction_angle_sd, 4.5);
+  ReportInput input;
+  input.fits.push_back(fit);
+  const std::string text = to_json(input);
+  EXPECT_EQ(to_json(from_json(text, "result.json")), text);
+  EXPECT_EQ(from_json(text, "result.json").fits[0].envelopes.at(0).left_out, envelope.left_out);
+}
+
 }  // namespace
 }  // namespace bondlab

@@ -9,6 +9,7 @@
 #include "report/atomic_file.h"
 #include "report/curve_plots.h"
 #include "report/deviation_picture.h"
+#include "report/envelope_plot.h"
 #include "report/fit_plots.h"
 #include "report/gnuplot.h"
 #include "report/number_text.h"
@@ -56,6 +57,7 @@ class Drawer {
     figures.deviations = deviations();
     if (!input_.fits.empty()) {
       const ReportFit &fit = input_.fits.front();
+      if (!fit.envelopes.empty()) add(figures.tests, envelope_plot(fit.envelopes), "envelopes", "");
       // Curves side by side, then specimens side by side: what is compared stands together.
       for (const ReportRunFiles &run : fit.best_runs) figures.tests.push_back(curve(fit, run));
       for (const ReportRunFiles &run : fit.best_runs) figures.tests.push_back(specimen(run));

@@ -28,8 +28,10 @@ constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 struct ReportTarget {
   std::string name;
-  std::string test;      // of the study
-  std::string function;  // "uniaxial.peak_stress": tells where the value is drawn in the curve
+  std::string test;      // of the study; empty: of an envelope
+  std::string envelope;  // of the study; empty: of a test
+  std::string function;  // "uniaxial.peak_stress": tells where the value is drawn in the curve;
+                         // "envelope.cohesion"
   std::string unit;      // of the numbers that follow
   double measured = no_number, sd = no_number;
   double tolerance = no_number;  // |simulated - measured| that counts as met
@@ -94,6 +96,21 @@ struct ReportRunFiles {
   std::string replay;  // command
 };
 
+// A straight line value = c + over tan(phi) through one response of several tests, and what was
+// measured of it. Angles in degrees.
+struct ReportEnvelope {
+  std::string name, response, over;
+  std::string unit;                 // of the numbers that follow
+  std::vector<std::string> tests;   // that gave a point
+  std::vector<double> over_values, values;  // one each
+  double cohesion = no_number, cohesion_error = no_number;  // no number: see why_none
+  double friction_angle = no_number, friction_angle_error = no_number;
+  double measured_cohesion = no_number, measured_cohesion_sd = no_number;
+  double measured_friction_angle = no_number, measured_friction_angle_sd = no_number;
+  std::vector<std::string> left_out;  // "shear_5: why"
+  std::string why_none;
+};
+
 // A response on packings other than the one the fit used.
 struct ReportPacking {
   std::string name, unit;  // of a target; unit of the numbers that follow
@@ -116,6 +133,7 @@ struct ReportFit {
   std::vector<ReportStep> history;
   std::vector<ReportPacking> packings;
   std::vector<ReportRunFiles> best_runs;
+  std::vector<ReportEnvelope> envelopes;  // through the best runs
   std::vector<ReportFinding> findings;
   std::vector<std::string> notes;  // what was done and why
   int forward_runs = 0;            // asked for, those out of the store included

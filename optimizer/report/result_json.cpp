@@ -151,6 +151,7 @@ void fields(A &a, ReportTarget &t) {
   a("simulated", t.simulated), a("met", t.met), a("in_fit", t.in_fit), a("tolerance", t.tolerance);
   a("noise_sd", t.noise_sd), a("why_missing", t.why_missing), a("test", t.test);
   a("function", t.function), a("source", t.source), a("sd_source", t.sd_source);
+  a.since_later("envelope", t.envelope);
 }
 
 template <class A>
@@ -179,6 +180,18 @@ void fields(A &a, ReportRunFiles &r) {
   a("curve", r.curve), a("events", r.events), a("particles", r.particles);
   a("variables", r.variables), a("quality", r.quality), a("ok", r.ok), a("failure", r.failure);
   a("wall_seconds", r.wall_seconds), a("replay", r.replay);
+}
+
+template <class A>
+void fields(A &a, ReportEnvelope &e) {
+  a("name", e.name), a("response", e.response), a("over", e.over), a("unit", e.unit);
+  a("tests", e.tests), a("over_values", e.over_values), a("values", e.values);
+  a("cohesion", e.cohesion), a("cohesion_error", e.cohesion_error);
+  a("friction_angle", e.friction_angle), a("friction_angle_error", e.friction_angle_error);
+  a("measured_cohesion", e.measured_cohesion), a("measured_cohesion_sd", e.measured_cohesion_sd);
+  a("measured_friction_angle", e.measured_friction_angle);
+  a("measured_friction_angle_sd", e.measured_friction_angle_sd);
+  a("left_out", e.left_out), a("why_none", e.why_none);
 }
 
 template <class A>
@@ -231,6 +244,7 @@ void fields(A &a, ReportFit &f) {
   });
   a("replay", f.replay), a("packings", f.packings), a("findings", f.findings), a("notes", f.notes);
   a("correlation", f.correlation), a("best_runs", f.best_runs), a("history", f.history);
+  a.since_later("envelopes", f.envelopes);
 }
 
 // All of ReportInput but its fits, which don't stand in a plain list.

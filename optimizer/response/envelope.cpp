@@ -76,6 +76,17 @@ StrengthEnvelope envelope_of(const EnvelopeEntry &entry, const Study &study,
   return envelope;
 }
 
+double envelope_figure(const StrengthEnvelope &envelope, const std::string &figure) {
+  if (!envelope.left_out.empty())
+    throw ResponseError(ResponseCause::window_too_small,
+                        fmt::format("the envelope '{}' lacks the point of {}", envelope.name,
+                                    fmt::join(envelope.left_out, "; of ")));
+  if (!envelope.line)
+    throw ResponseError(ResponseCause::window_too_small,
+                        "the envelope '" + envelope.name + "' has no line: " + envelope.why_none);
+  return figure == "cohesion" ? envelope.line->cohesion : envelope.line->friction_angle / kDegrees;
+}
+
 std::string envelope_text(const StrengthEnvelope &envelope) {
   if (!envelope.line) return "none: " + envelope.why_none;
   const EnvelopeLine &line = *envelope.line;

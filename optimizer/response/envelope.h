@@ -10,7 +10,9 @@
 // Why not a weighted fit: one run a test says nothing of its own scatter.
 // Units: SI; angles in degrees.
 // Failure: a test whose run failed or that doesn't give the response is left out with a sentence; no
-//   line (a sentence why) when fewer than three different abscissae are left.
+//   line (a sentence why) when fewer than three different abscissae are left. As a figure that is
+//   compared with a measured one the line must go through every test the study names: with one
+//   left out it would be another figure, and a fit would see it jump.
 // Limits: a straight line; where the envelope is curved, c and phi hold for the range tested.
 #pragma once
 
@@ -49,6 +51,10 @@ EnvelopeLine envelope_line(const std::vector<EnvelopePoint> &points);
 // `outcomes` by the name of a test; a test that isn't there counts as not run.
 StrengthEnvelope envelope_of(const EnvelopeEntry &entry, const Study &study,
                      const std::map<std::string, const ForwardOutcome *> &outcomes);
+
+// One of envelope_figures(), SI. ResponseError, the sentence naming the tests left out, when there is
+// no line or not every test of the study gave a point.
+double envelope_figure(const StrengthEnvelope &envelope, const std::string &figure);
 
 // "c 8.31 +- 0.42 MPa, phi 34.2 +- 1.1 degrees (4 tests)", or "none: why".
 std::string envelope_text(const StrengthEnvelope &envelope);

@@ -37,6 +37,35 @@ const Target &Study::target(const std::string &name) const {
 const FitEntry &Study::fit(const std::string &name) const {
   return by_name(fits, name, "fit", file);
 }
+const EnvelopeEntry &Study::envelope(const std::string &name) const {
+  return by_name(envelopes, name, "envelope", file);
+}
+
+const std::vector<std::string> &envelope_figures() {
+  static const std::vector<std::string> names{"cohesion", "friction_angle"};
+  return names;
+}
+
+std::vector<std::string> tests_of(const Study &study, const FigureSource &source) {
+  if (source.envelope.empty()) return {source.test};
+  std::vector<std::string> tests;
+  for (const std::string &name : study.envelope(source.envelope).tests)
+    if (std::find(tests.begin(), tests.end(), name) == tests.end()) tests.push_back(name);
+  return tests;
+}
+
+std::string unit_of(const Study &study, const FigureSource &source) {
+  if (source.envelope.empty())
+    return study.test(source.test).definition.responses.at(source.response).unit;
+  if (source.response == "friction_angle") return "rad";
+  const EnvelopeEntry &envelope = study.envelope(source.envelope);
+  return study.test(envelope.tests.front()).definition.responses.at(envelope.response).unit;
+}
+
+std::string source_text(const FigureSource &source) {
+  return source.response + (source.envelope.empty() ? " of test " + source.test
+                                                    : " of envelope " + source.envelope);
+}
 
 std::map<std::string, double> deck_variables(const Study &study, const std::string &test,
                                              const std::vector<double> &values) {

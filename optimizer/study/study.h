@@ -79,10 +79,15 @@ struct Parameter {
   Place place;
 };
 
-struct Target {
+// Where a figure comes from: a response of one test, or the line of an envelope through several.
+struct FigureSource {
+  std::string test;      // name of a TestEntry; empty: from an envelope
+  std::string envelope;  // name of an EnvelopeEntry; empty: from a test
+  std::string response;  // name in the test's definition; of an envelope: one of envelope_figures()
+};
+
+struct Target : FigureSource {
   std::string name;
-  std::string test;      // name of a TestEntry
-  std::string response;  // name in that test's definition
   std::string unit;      // to show it in
   double value = 0;      // SI
   double sd = 0;         // SI, > 0
@@ -121,9 +126,8 @@ struct FitOptions {
 };
 
 // A response by the name that published tables give it, and how close a simulation has to come.
-struct PublishedQuantity {
+struct PublishedQuantity : FigureSource {
   std::string name;
-  std::string test, response;  // as in Target
   std::string unit;            // to show it in
   double tolerance = 0;        // SI, or a share of the published value
   bool relative = true;
@@ -185,7 +189,20 @@ struct Study {
   const Parameter &parameter(const std::string &name) const;
   const Target &target(const std::string &name) const;
   const FitEntry &fit(const std::string &name) const;
+  const EnvelopeEntry &envelope(const std::string &name) const;
 };
+
+// What the line of an envelope gives: "cohesion" in the unit of its response, "friction_angle" in rad.
+const std::vector<std::string> &envelope_figures();
+
+// The tests whose runs a figure needs, each once.
+std::vector<std::string> tests_of(const Study &study, const FigureSource &source);
+
+// The SI unit of a figure of a study that read_study() accepted.
+std::string unit_of(const Study &study, const FigureSource &source);
+
+// "UCS of test ucs", "cohesion of envelope peak".
+std::string source_text(const FigureSource &source);
 
 Study read_study(const std::filesystem::path &file);
 

@@ -89,6 +89,7 @@ void read_envelopes(TomlTable &top, Study &study) {
     table.finish();
     std::string si_unit;
     std::set<double> different;
+    const std::set<std::string> named(envelope.tests.begin(), envelope.tests.end());
     bool computed = false;  // the abscissae are known only after the runs
     bool good = table.has("tests") && table.has("response") && table.has("over");
     for (const std::string &name : envelope.tests) {
@@ -108,6 +109,9 @@ void read_envelopes(TomlTable &top, Study &study) {
       table.error("tests", "a line with its errors needs tests at three different '" +
                                envelope.over + "' or more; these have " +
                                std::to_string(different.size()));
+    if (good && computed && named.size() < kFewest)
+      table.error("tests", "a line with its errors needs three different tests or more; here are " +
+                               std::to_string(named.size()));
     envelope.unit = table.has("unit") && unit ? *unit : si_unit;
     if (good && !same_dimension(envelope.unit, si_unit))
       table.error("unit", "the unit '" + envelope.unit + "' isn't one of the response; allowed here: " +

@@ -196,26 +196,10 @@ void read_targets(TomlTable &top, Study &study) {
     Target target;
     target.place = table.place();
     target.name = read_name(table, study.targets);
-    target.test = table.text("test", true);
-    target.response = table.text("response", true);
-    std::string si_unit;
-    const TestEntry *test = find_entry(study.tests, target.test);
-    if (!test && !target.test.empty())
-      table.error("test", unknown_name("there is no test", target.test, names_of(study.tests)));
-    if (test && !test->definition.responses.empty() && !target.response.empty()) {
-      const auto response = test->definition.responses.find(target.response);
-      if (response != test->definition.responses.end()) {
-        si_unit = response->second.unit;
-      } else {
-        std::vector<std::string> known;
-        for (const auto &[name, definition] : test->definition.responses) known.push_back(name);
-        table.error("response", unknown_name("the test '" + test->test + "' has no response",
-                                             target.response, known));
-      }
-    }
+    std::string si_unit = read_figure_source(table, study, target);
     if (si_unit.empty())
       si_unit =
-          unit_as_written(entry->get("value"), "1");  // unknown response: judge what can be judged
+          unit_as_written(entry->get("value"), "1");  // unknown figure: judge what can be judged
     const std::optional<double> value = table.quantity("value", si_unit, true);
     target.value = value.value_or(1);
     target.unit = unit_as_written(entry->get("value"), si_unit);

@@ -86,9 +86,12 @@ void read_own_specimen(TomlTable &table, const toml::table &given, Study &study,
   sizes.finish();
   if (table.errors().errors().size() != errors_before) return;
   std::vector<std::string> wanted;
-  for (const PublishedQuantity &quantity : study.quantities)
-    if (std::find(wanted.begin(), wanted.end(), quantity.test) == wanted.end())
-      wanted.push_back(quantity.test);
+  for (const PublishedQuantity &quantity : study.quantities) {
+    if (!quantity.envelope.empty() && !find_entry(study.envelopes, quantity.envelope))
+      continue;  // reported already
+    for (const std::string &test : tests_of(study, quantity))
+      if (std::find(wanted.begin(), wanted.end(), test) == wanted.end()) wanted.push_back(test);
+  }
   for (const std::string &name : wanted) {
     const TestEntry *found = find_entry(study.tests, name);
     if (!found || !find_entry(study.specimens, found->specimen)) continue;  // reported already
@@ -120,22 +123,8 @@ void read_quantities(TomlTable &top, Study &study) {
     PublishedQuantity quantity;
     quantity.place = table.place();
     quantity.name = read_name(table, study.quantities);
-    quantity.test = table.text("test", true);
-    quantity.response = table.text("response", true);
-    const TestEntry *test = find_entry(study.tests, quantity.test);
-    if (!test && !quantity.test.empty())
-      table.error("test", unknown_name("there is no test", quantity.test, names_of(study.tests)));
-    std::string si_unit = "1";
-    if (test && !quantity.response.empty()) {
-      const auto response = test->definition.responses.find(quantity.response);
-      std::vector<std::string> known;
-      for (const auto &[name, definition] : test->definition.responses) known.push_back(name);
-      if (response != test->definition.responses.end())
-        si_unit = response->second.unit;
-      else if (!known.empty())
-        table.error("response", unknown_name("the test '" + test->test + "' has no response",
-                                             quantity.response, known));
-    }
+    std::string si_unit = read_figure_source(table, study, quantity);
+    if (si_unit.empty()) si_unit = "1";
     quantity.unit = read_unit(table, false).value_or(si_unit);
     if (!same_dimension(quantity.unit, si_unit)) {
       table.error("unit", "the unit '" + quantity.unit + "' isn't one of the response; allowed here: " + join(allowed_units(si_unit)));

@@ -309,9 +309,9 @@ Study read_study(const fs::path &file) {
   read_specimens(top, study);
   read_tests(top, study);
   read_parameters(top, study);
+  read_envelopes(top, study);
   read_targets(top, study);
   read_fits(top, study);
-  read_envelopes(top, study);
   read_published(top, study);
   read_fit_options(top, study);
   read_assumptions(top, study);

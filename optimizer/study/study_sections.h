@@ -19,11 +19,15 @@ void read_specimens(TomlTable &top, Study &study);
 void check_specimen(ErrorCollector &errors, SpecimenEntry &specimen);  // by the generator
 void read_tests(TomlTable &top, Study &study);  // and the test.toml of each
 void read_parameters(TomlTable &top, Study &study);
+void read_envelopes(TomlTable &top, Study &study);
 void read_targets(TomlTable &top, Study &study);
 void read_fits(TomlTable &top, Study &study);
-void read_envelopes(TomlTable &top, Study &study);
 void read_published(TomlTable &top, Study &study);  // [[quantities]], [[cases]], [compare]
 void read_fit_options(TomlTable &top, Study &study);
+
+// `test` or `envelope`, and `response`, of a [[targets]] or [[quantities]] entry. Returns the
+// figure's SI unit, "" when it isn't known (reported).
+std::string read_figure_source(TomlTable &table, const Study &study, FigureSource &source);
 
 // The `name` of an entry: required, made of letters, digits, '_', '-', '.', and not used by an
 // earlier entry of its kind.

@@ -2,7 +2,8 @@
 //
 // Job: `bondlab run` on several shear tests of one study: their envelopes on the screen, in run.json and
 // as a picture. Method: shear_envelope.toml with coarser grains, a shorter way and three normal stresses;
-// the lines are computed again from the points in run.json by the normal equations.
+// the lines are computed again from the points in run.json by the normal equations. Then the same runs,
+// from the store, as a published table of the friction angle.
 // Units: Pa. Failure: the folder is left and named.
 #include <gtest/gtest.h>
 
@@ -30,6 +31,11 @@ TEST(ShearEnvelope, is_the_line_through_the_tests_of_a_study) {
   text = std::regex_replace(text, std::regex("r_min = \"0.4 mm\""), "r_min = \"0.6 mm\"");
   text = std::regex_replace(text, std::regex("max_shear = 0.06"), "max_shear = 0.03");
   text = std::regex_replace(text, std::regex(", \"shear_20\"\\]"), "]");
+  text +=
+      "\n[[targets]]\nname = \"c_peak\"\nenvelope = \"peak\"\nresponse = \"cohesion\"\nvalue = \"16 MPa\"\n"
+      "sd = \"1 MPa\"\n[[quantities]]\nname = \"phi_peak\"\nenvelope = \"peak\"\nresponse = \"friction_angle\"\n"
+      "unit = \"deg\"\ntolerance = \"5 deg\"\n[[cases]]\nname = \"as_started\"\n"
+      "set = { sigma_c = \"35 MPa\", mu = 0.5 }\nexpect = { phi_peak = \"50 deg\" }\n";
   std::ofstream(folder / "small.toml") << text;
   const std::string command = std::string("'") + BONDLAB_BIN + "' run '" + (folder / "small.toml").string() +
                               "' --test shear_2 --test shear_5 --test shear_10 --out '" + folder.string() +
@@ -38,6 +44,7 @@ TEST(ShearEnvelope, is_the_line_through_the_tests_of_a_study) {
   const std::string screen = bondlab::read_text_file(folder / "screen.txt");
   EXPECT_NE(screen.find("envelope peak: c "), std::string::npos) << screen;
   EXPECT_NE(screen.find("envelope residual: c "), std::string::npos) << screen;
+  EXPECT_TRUE(std::regex_search(screen, std::regex("  cohesion +[0-9.]+ MPa +measured 16 MPa"))) << screen;
   EXPECT_NE(screen.find("kinetic over strain energy"), std::string::npos) << screen;
   EXPECT_GT(fs::file_size(folder / "envelopes.svg"), 1000u);
 
@@ -66,6 +73,17 @@ TEST(ShearEnvelope, is_the_line_through_the_tests_of_a_study) {
     EXPECT_NEAR(residual.at("points")[k].at("over").get<double>(), nominal[k], 2 * 0.25e6);
   // every run says what it cost
   for (const auto &test : record.at("tests")) EXPECT_GT(test.at("ns_per_bond_and_step").get<double>(), 1);
+  const std::string compare = std::string("'") + BONDLAB_BIN + "' compare '" + (folder / "small.toml").string() +
+                              "' --packings 1 --out '" + folder.string() + "' > '" +
+                              (folder / "compare.txt").string() + "' 2>&1 < /dev/null";
+  ASSERT_EQ(std::system(compare.c_str()), 0) << bondlab::read_text_file(folder / "compare.txt");
+  const std::string table = bondlab::read_text_file(folder / "comparison.tsv");
+  std::smatch row;  // case, quantity, unit, published, its sd, ours
+  ASSERT_TRUE(std::regex_search(
+      table, row, std::regex("as_started\tphi_peak\trad\t([0-9.]+)\t0\t([0-9.]+)\t")))
+      << table;
+  EXPECT_NEAR(std::stod(row[1]), 50 * std::acos(-1.0) / 180, 1e-8);
+  EXPECT_NEAR(std::stod(row[2]), peak.at("friction_angle").get<double>() * std::acos(-1.0) / 180, 1e-8);
   if (!::testing::Test::HasFailure()) fs::remove_all(folder);
   else std::printf("the run is left in %s\n", folder.c_str());
 }
