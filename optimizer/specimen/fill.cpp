@@ -18,7 +18,8 @@ constexpr int most_choices = 6;             // of touching surfaces from one sta
 // Moves `p` until it touches its nearest surfaces: as many as there are unknowns, which are the
 // place and, when `any_radius`, the radius. Near a round wall there may be fewer at first, and it
 // touches those by the shortest way. False when that comes to nothing within `reach` of the start.
-bool touch(const GrowingPacking &filling, Particle &p, int dimension, bool any_radius, double reach) {
+bool touch(const GrowingPacking &filling, Particle &p, int dimension, bool any_radius,
+           double reach) {
   const int unknowns = dimension + (any_radius ? 1 : 0);
   const Particle start = p;
   Surface near[4];
