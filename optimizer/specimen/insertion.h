@@ -16,7 +16,7 @@
 //   The random points are even in a rectangle or prism. In a disc, cylinder or sphere they are even
 //   in the distance from the axis (or middle) and not in the area, as GenGeo's are: it tries less
 //   often near the round wall and leaves more holes there.
-// Why beside fill.h: fill.h leaves no hole, GenGeo leaves some, and strength scatters with them.
+// Why beside fill.h: fill.h leaves no hole; papers whose packings GenGeo made have some.
 // Differences: Newton's rule where GenGeo minimises by a simplex with a tolerance; touching to
 //   rounding; directions in a sphere are even (GenGeo's crowd at its poles).
 // Units: any one length unit (make_specimen() gives mean radii).
