@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <sstream>
 
 #include "app/commands.h"
@@ -35,6 +36,7 @@ struct Options {
   double ratio = 1.66, overlap = SpecimenRequest().overlap;
   std::string sizes = "uniform", method = "expansion", r_median, d10, d50, d90, classes;
   double spread = 0;
+  std::optional<long> tries;
   std::uint64_t seed = 1;
 };
 
@@ -74,6 +76,9 @@ SpecimenRequest request_from(ContainerShape shape, const Options &options) {
   request.overlap = options.overlap;
   request.sizes = options.sizes;
   request.method = options.method;
+  if (options.tries && options.method != "insertion")
+    throw UserError("--tries belongs to --method insertion; here it is " + options.method);
+  request.tries = options.tries.value_or(request.tries);
   request.r_median = quantity("--r-median", options.r_median, "m");
   request.r_spread = options.spread;
   request.d10 = quantity("--d10", options.d10, "m");
@@ -181,8 +186,11 @@ void add_shape(CLI::App &specimen, ContainerShape shape) {
   command->add_option("--d90", options->d90, "the same, 90 %");
   command
       ->add_option("--method", options->method,
-                   "way of packing: " + join(packing_methods()) + " (filling: touching, no stress)")
+                   "way of packing: " + join(packing_methods()) + " (filling: touching, no stress; insertion: the same with holes left, as by GenGeo)")
       ->capture_default_str();
+  command->add_option("--tries", options->tries,
+                      "insertion: failures in a row until it gives up (default " +
+                          std::to_string(default_tries) + ")");
   command->add_option("--seed", options->seed, "another seed is another packing")
       ->capture_default_str();
   command->add_option("--density", options->density, "density of the particles")

@@ -9,6 +9,7 @@
 #include "base/user_error.h"
 #include "specimen/fill.h"
 #include "specimen/floaters.h"
+#include "specimen/insertion.h"
 #include "specimen/neighbours.h"
 #include "specimen/relax.h"
 #include "specimen/size_distribution.h"
@@ -34,7 +35,8 @@ constexpr int most_growths = 200;         // rounds of seating what is left, wit
 constexpr double largest_growth = 1.15;   // of a floater, over r_max
 constexpr double growth_of_loose = 1.3;   // the same, of one that would have no bond otherwise
 constexpr double no_load = 0.02, faint_load = 0.2, any_load = 1e9;  // of the mean overlap
-constexpr int most_steps = 5000;                                    // of one minimisation
+constexpr double most_detached = 0.1;  // share of an insertion that may be taken out
+constexpr int most_steps = 5000;       // of one minimisation
 constexpr double coarse_tolerance = 1e-2, fine_tolerance = 2e-3;
 
 struct Packing {
@@ -240,6 +242,25 @@ std::vector<bool> find_detached(const std::vector<Particle> &particles) {
   return detached;
 }
 
+std::size_t remove(Packing &packing, const std::vector<bool> &detached) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < detached.size(); ++i)
+    if (!detached[i]) packing.particles[kept++] = packing.particles[i];
+  packing.particles.resize(kept);
+  return detached.size() - kept;
+}
+
+// Seeds that no inserted particle touches; they are few, else the packing is none.
+void remove_detached(Packing &packing) {
+  const std::size_t all = packing.particles.size();
+  const std::size_t removed = remove(packing, find_detached(packing.particles));
+  if (static_cast<double>(removed) > most_detached * static_cast<double>(all))
+    throw UserError("insertion: " + std::to_string(removed) + " of " + std::to_string(all) +
+                    " particles don't hang together with the rest (allowed: " +
+                    std::to_string(std::lround(100 * most_detached)) +
+                    " %); take more tries or a wider range of sizes");
+}
+
 // A hole may be too large for the growth that floaters are allowed, about one in 40,000 (2D): its
 // particle would have no bond, and the packing could not be tested. It may grow farther; one that
 // is then still loose is taken out.
@@ -247,11 +268,7 @@ void attach_or_remove(Packing &packing, double r_max) {
   std::vector<bool> detached = find_detached(packing.particles);
   if (std::find(detached.begin(), detached.end(), true) == detached.end()) return;
   seat(packing, detached, 0, growth_of_loose / largest_growth * r_max * packing.size_factor);
-  detached = find_detached(packing.particles);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < detached.size(); ++i)
-    if (!detached[i]) packing.particles[kept++] = packing.particles[i];
-  packing.particles.resize(kept);
+  remove(packing, find_detached(packing.particles));
 }
 
 }  // namespace
@@ -275,10 +292,16 @@ Specimen make_specimen(const SpecimenRequest &given, const SpecimenProgressCallb
   if (request.method == "filling") {
     tell("filling", 0);
     packing = fill_and_seat(box, *sizes, RandomStream(request.seed, packing_stream), grown);
+    attach_or_remove(packing, sizes->largest());
+  } else if (request.method == "insertion") {
+    tell("inserting", 0);
+    RandomStream random(request.seed, packing_stream);
+    packing.particles = insert_particles(box, *sizes, request.tries, random).particles;
+    remove_detached(packing);
   } else {
     packing = expand(box, *sizes, request, grown, tell);
+    attach_or_remove(packing, sizes->largest());
   }
-  attach_or_remove(packing, sizes->largest());
 
   tell("measuring", 0.95);
   reorder(packing.particles);

@@ -15,12 +15,14 @@ namespace {
 
 // Changes when the generator gives another packing for the same request: old files are then made
 // anew.
-constexpr const char *generator = "radius-expansion-1", *filler = "filling-1";
+constexpr const char *generator = "radius-expansion-1", *filler = "filling-1",
+                     *inserter = "insertion-1";
 
 constexpr double fewest_across = 5;      // mean diameters in the smallest size of a container
 constexpr double narrowest_notch = 0.5;  // mean radii; bonds reach over gaps of 0.05 to 0.15
 constexpr long most_particles =
     2000000;  // about 2 GB and an hour; beyond it a slip in a unit is likelier than a wish
+constexpr double least_ratio = 2;  // of radii inserted: at 1.66 discs fall apart (specimen.md)
 constexpr double least_overlap = 1e-7, largest_overlap = 1e-2;
 
 std::string in_metres(double value) { return format_quantity(value, "m"); }
@@ -29,7 +31,7 @@ bool is_size(double value) { return std::isfinite(value) && value > 0; }
 
 }  // namespace
 
-std::vector<std::string> packing_methods() { return {"expansion", "filling"}; }
+std::vector<std::string> packing_methods() { return {"expansion", "filling", "insertion"}; }
 
 void check_request(const SpecimenRequest &request) {
   ErrorCollector errors;
@@ -62,6 +64,9 @@ void check_request(const SpecimenRequest &request) {
   if (std::find(methods.begin(), methods.end(), request.method) == methods.end())
     errors.add(Place{},
                "unknown method \"" + request.method + "\" (allowed: " + join(methods) + ")");
+  if (request.method == "insertion" && (request.tries < 1 || request.tries > most_tries))
+    errors.add(Place{}, "tries is " + std::to_string(request.tries) + " (allowed: 1 to " +
+                            std::to_string(most_tries) + ")");
   if (!is_size(request.density))
     errors.add(Place{},
                "density is " + canonical_number(request.density) + " kg/m3 (allowed: > 0)");
@@ -72,9 +77,15 @@ void check_request(const SpecimenRequest &request) {
   errors.throw_if_any();
 
   const auto sizes = size_distribution(request.size_settings(), is_flat(request.shape) ? 2 : 3);
+  if (request.method == "insertion" && sizes->largest() < least_ratio * sizes->smallest())
+    throw UserError("the largest radius is " +
+                    format_quantity(sizes->largest() / sizes->smallest(), "", 4) +
+                    " times the smallest; between sizes so alike insertion fits too few "
+                    "(allowed: at least " +
+                    canonical_number(least_ratio) + " times)");
   const Container container = request.container();
   // A filling is mostly small particles, whatever its distribution: it needs room for the largest.
-  const bool filling = request.method == "filling";
+  const bool filling = request.method != "expansion";
   const double r_mean = sizes->moment(1);
   const double needed =
       filling ? std::max(2 * sizes->largest(), fewest_across * 2 * sizes->smallest())
@@ -91,7 +102,8 @@ void check_request(const SpecimenRequest &request) {
                     (filling ? "up to " + in_metres(2 * sizes->largest())
                              : "mean diameter " + in_metres(2 * r_mean)) +
                     " (allowed: at least " + in_metres(needed) +
-                    (filling ? ", the largest particle and five of the smallest)" : ", five particles across)"));
+                    (filling ? ", the largest particle and five of the smallest)"
+                             : ", five particles across)"));
   const int dimension = container.dimension();
   const double one = dimension == 2 ? 4 * sizes->moment(2) : 8 * sizes->moment(3);
   if (container.measure() / one > static_cast<double>(most_particles))
@@ -119,8 +131,10 @@ SpecimenRequest canonical_request(const SpecimenRequest &request) {
 
 std::string canonical_text(const SpecimenRequest &given) {
   const SpecimenRequest request = canonical_request(given);
-  std::string text = "bondlab specimen 1\ngenerator " +
-                     std::string(request.method == "filling" ? filler : generator);
+  const char *maker = request.method == "filling"     ? filler
+                      : request.method == "insertion" ? inserter
+                                                      : generator;
+  std::string text = "bondlab specimen 1\ngenerator " + std::string(maker);
   const auto line = [&](const char *name, const std::string &value) {
     text += "\n" + std::string(name) + " " + value;
   };
@@ -151,7 +165,8 @@ std::string canonical_text(const SpecimenRequest &given) {
   line("sizes", request.sizes);
   line("seed", std::to_string(request.seed));
   line("density", canonical_number(request.density));
-  if (request.method != "filling") line("overlap", canonical_number(request.overlap));
+  if (request.method == "expansion") line("overlap", canonical_number(request.overlap));
+  if (request.method == "insertion") line("tries", std::to_string(request.tries));
   return text + "\n";
 }
 

@@ -58,6 +58,20 @@ TEST(SpecimenRequest, BadSizesAreNamedWithTheValueAndWhatIsAllowed) {
               "unknown size distribution \"gauss\"");
 }
 
+TEST(SpecimenRequest, InsertionNeedsTriesAndRoomBetweenItsSizes) {
+  const auto inserted = [](double ratio, long tries, const char *method = "insertion") {
+    return complaint(
+        [=](SpecimenRequest &r) { r.method = method, r.r_ratio = ratio, r.tries = tries; });
+  };
+  EXPECT_EQ(inserted(3, 1), "");
+  EXPECT_EQ(inserted(3, most_tries), "");
+  expect_part(inserted(3, 0), "tries is 0 (allowed: 1 to 1000000)");
+  expect_part(inserted(3, most_tries + 1), "tries is 1000001 (allowed: 1 to 1000000)");
+  EXPECT_EQ(inserted(2, 1000), "");
+  expect_part(inserted(1.9, 1000), "is 1.9 times the smallest");
+  EXPECT_EQ(inserted(1.9, 0, "filling"), "");
+}
+
 TEST(SpecimenRequest, AllErrorsAtOnce) {
   const std::string all = complaint([](SpecimenRequest &r) {
     r.width = r.height = -1;

@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "specimen/container.h"
+#include "specimen/insertion.h"
 #include "specimen/size_distribution.h"
 #include "specimen/statistics.h"
 
@@ -44,6 +45,7 @@ struct SpecimenRequest {
   std::vector<SizeClass> classes;           // discrete
   double d10 = 0, d50 = 0, d90 = 0;         // m; d10-d50-d90
   std::string method = "expansion";         // a name of packing_methods()
+  long tries = default_tries;               // insertion: failures in a row until it gives up
   std::uint64_t seed = 1;
   double density =
       2600;  // kg/m3, of the particles; written to the file, without influence on the packing
@@ -76,7 +78,8 @@ struct SpecimenProgress {
 };
 using SpecimenProgressCallback = std::function<void(const SpecimenProgress &)>;
 
-// "expansion": radii scaled to a low stress; "filling": touching particles, no stress (fill.h).
+// "expansion": radii scaled to a low stress; "filling": touching particles, no stress (fill.h);
+// "insertion": the same as GenGeo does it, with holes left (insertion.h).
 std::vector<std::string> packing_methods();
 
 // Throws UserErrors with everything that is wrong with a request.

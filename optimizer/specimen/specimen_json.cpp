@@ -86,6 +86,7 @@ std::string specimen_record(const Specimen &specimen, const std::string &data_ha
   Json &asked = json["request"];
   put_container(asked, request);
   if (request.method != "expansion") asked["method"] = request.method;
+  if (request.method == "insertion") asked["tries"] = request.tries;
   if (request.sizes == "log-normal") {
     asked["r_median"] = request.r_median;
     asked["r_spread"] = request.r_spread;

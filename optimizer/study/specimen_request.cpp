@@ -17,6 +17,7 @@ SpecimenRequest specimen_request(const SpecimenEntry &entry, int packing) {
   request.d50 = entry.d50;
   request.d90 = entry.d90;
   request.method = entry.method;
+  request.tries = entry.tries;
   request.seed = entry.seed + static_cast<std::uint64_t>(packing);
   request.density = entry.density;
   return request;

@@ -19,6 +19,7 @@
 
 #include "base/user_error.h"
 #include "specimen/container.h"
+#include "specimen/insertion.h"
 #include "specimen/size_distribution.h"
 #include "study/measurement.h"
 #include "study/test_definition.h"
@@ -43,6 +44,7 @@ struct SpecimenEntry {
   std::vector<SizeClass> classes;     // discrete
   double d10 = 0, d50 = 0, d90 = 0;   // m; d10-d50-d90
   std::string method = "expansion";   // a way of packing
+  long tries = default_tries;         // of method insertion
   double density = 2600;          // kg/m3; of the particles
   std::uint64_t seed = 1;
   Place place;

@@ -108,6 +108,12 @@ void read_sizes(TomlTable &table, SpecimenEntry &specimen) {
       if (belongs(key, "d10-d50-d90")) *value = positive_length(table, key, true);
   }
   specimen.method = table.choice("method", packing_methods());
+  if (specimen.method == "insertion") {
+    specimen.tries = table.whole("tries", default_tries, 1, most_tries);
+  } else if (table.has("tries")) {
+    table.errors().add(table.key_place("tries"), "'tries' belongs to method = \"insertion\"; here it is \"" + specimen.method + "\"");
+    table.know("tries");
+  }
 }
 
 }  // namespace

@@ -146,6 +146,10 @@ TEST(ReadStudy, TakesEverySizeDistributionOfTheGenerator) {
   const SpecimenEntry normal = with("sizes = \"log-normal\"\nr_median = \"0.8 mm\"\nr_spread = 0.2\nmethod = \"filling\"");
   EXPECT_EQ(specimen_request(normal, 0).r_median, 0.8e-3);
   EXPECT_EQ(specimen_request(normal, 0).method, "filling");
+  const SpecimenEntry inserted = with("r_min = \"0.66 mm\"\nr_ratio = 3\nmethod = \"insertion\"\ntries = 50");
+  EXPECT_EQ(specimen_request(inserted, 0).method, "insertion");
+  EXPECT_EQ(specimen_request(inserted, 0).tries, 50);
+  EXPECT_EQ(specimen_request(with("r_min = \"0.66 mm\"\nr_ratio = 3\nmethod = \"insertion\""), 0).tries, default_tries);
   EXPECT_LT(normal.r_min, 0.6e-3) << "the smallest radius, for people";
   EXPECT_GT(normal.r_min * normal.r_ratio, 1.1e-3);
   const SpecimenEntry classes = with("sizes = \"discrete\"\nclasses = [\"0.5 mm: 30 %\", \"0.8 mm: 70 %\"]");
