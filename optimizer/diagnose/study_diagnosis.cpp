@@ -31,7 +31,6 @@ constexpr int null_draws = 2000, most_moves = 5;
 constexpr std::size_t least_for_holdout = 5;
 constexpr int most_rounds = 3;
 constexpr double contender = 40;  // behind the best in deviance
-constexpr double longest_growth = 8;
 constexpr double alarm_rate = 0.01, table_size = 10;
 constexpr double interval_95 = 1.959964;
 
@@ -173,11 +172,9 @@ void scale_to_noise(StudyModel &model, Prober &prober, const Evidence &evidence,
     std::map<std::size_t, double> other;
     for (std::size_t k = 0; k < model.catalogue().size(); ++k) {
       const auto &entry = model.catalogue()[k];
-      if (linear.dead[k]) continue;
-      if (tried[k].empty() || tried[k].back().size != entry.switch_on)
-        tried[k].push_back({entry.switch_on, scores.norm(k), model.emulated().trace_noise(k)});
-      else
-        continue;
+      const bool settled = !tried[k].empty() && tried[k].back().size == entry.switch_on;
+      if (linear.dead[k] || settled) continue;
+      tried[k].push_back({entry.switch_on, scores.norm(k), model.emulated().trace_noise(k)});
       if (const auto size = next_switch_on(tried[k], entry.largest)) other[k] = *size;
     }
     if (other.empty()) return;

@@ -9,8 +9,7 @@ namespace bondlab::diagnose {
 namespace {
 
 constexpr double size_low = 5, size_high = 25, size_aim = 8;  // noise units
-constexpr double longest_growth = 8;
-constexpr double hardly_another = 0.2;  // in the logarithm
+constexpr double hardly_another = 0.2;                        // in the logarithm
 constexpr std::size_t most_growths = 2;
 constexpr double clear = 0.3;  // share of noise that leaves no doubt of a change
 

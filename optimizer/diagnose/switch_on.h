@@ -26,4 +26,7 @@ std::optional<double> next_switch_on(const std::vector<SizeTried> &tried, double
 // Sizes tried in all, the first included.
 constexpr int most_switch_ons = 4;
 
+// Of a size at once: beyond it nothing that was run says what to expect.
+constexpr double longest_growth = 8;
+
 }  // namespace bondlab::diagnose

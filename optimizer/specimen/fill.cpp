@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "specimen/growing_packing.h"
+#include "specimen/small_system.h"
 
 namespace bondlab {
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double grid_over_smallest = 0.7;  // spacing of the starting points, in smallest radii
 constexpr int most_passes = 60;             // over the points, of each of the two parts
+constexpr double singular = 1e-6;           // pivot of touching surfaces
 constexpr int most_choices = 6;             // of touching surfaces from one starting point
 
 // Moves `p` until it touches its nearest surfaces: as many as there are unknowns, which are the
@@ -38,7 +40,7 @@ bool touch(const GrowingPacking &filling, Particle &p, int dimension, bool any_r
     if (worst < 1e-13 * reach) return true;
     for (int i = 0; i < count; ++i)
       for (int j = 0; j < count; ++j) a[i][j] = std::inner_product(row[i], row[i] + 4, row[j], 0.0);
-    if (!solve_small(a, count)) return false;
+    if (!solve_small(a, count, singular)) return false;
     double move[4] = {}, length = 0;
     for (int i = 0; i < count; ++i)
       for (int k = 0; k < unknowns; ++k) move[k] += a[i][count] * row[i][k];

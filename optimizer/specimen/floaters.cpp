@@ -6,12 +6,15 @@
 #include <limits>
 
 #include "specimen/neighbours.h"
+#include "specimen/small_system.h"
 
 namespace bondlab {
 
 namespace {
 
 // normal . h - slack_weight * t >= -distance, in the unknowns h (move) and t (clearance after it).
+constexpr double singular = 1e-9;  // pivot of constraints that meet in a vertex
+
 struct Constraint {
   double normal[3];
   double slack_weight;  // 1 for a surface, 0 for a side of the trust box
@@ -22,25 +25,6 @@ struct Move {
   double h[3] = {0, 0, 0};
   double clearance = -std::numeric_limits<double>::infinity();
 };
-
-// Solves a x = b for up to 4 unknowns by elimination with row exchange; false when (nearly)
-// singular.
-bool solve(double a[4][5], int n) {
-  for (int k = 0; k < n; ++k) {
-    int best = k;
-    for (int i = k + 1; i < n; ++i)
-      if (std::fabs(a[i][k]) > std::fabs(a[best][k])) best = i;
-    if (std::fabs(a[best][k]) < 1e-9) return false;
-    for (int j = 0; j <= n; ++j) std::swap(a[k][j], a[best][j]);
-    for (int i = 0; i < n; ++i) {
-      if (i == k) continue;
-      const double factor = a[i][k] / a[k][k];
-      for (int j = k; j <= n; ++j) a[i][j] -= factor * a[k][j];
-    }
-  }
-  for (int k = 0; k < n; ++k) a[k][n] /= a[k][k];
-  return true;
-}
 
 // Maximises t by trying every vertex: there are at most some twenty constraints, three or four of
 // them active.
@@ -58,7 +42,7 @@ Move best_vertex(const std::vector<Constraint> &constraints, int dimension) {
       a[i][unknowns] = -c.distance;
       has_surface = has_surface || c.slack_weight > 0;
     }
-    if (!has_surface || !solve(a, unknowns)) return;
+    if (!has_surface || !solve_small(a, unknowns, singular)) return;
     const double t = a[dimension][unknowns];
     if (t <= best.clearance) return;
     for (const Constraint &c : constraints) {

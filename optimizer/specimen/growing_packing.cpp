@@ -93,21 +93,4 @@ bool GrowingPacking::surface(const Particle &at, long id, Surface &seen) const {
   return found;
 }
 
-bool solve_small(double a[4][5], int n) {
-  for (int k = 0; k < n; ++k) {
-    int best = k;
-    for (int i = k + 1; i < n; ++i)
-      if (std::fabs(a[i][k]) > std::fabs(a[best][k])) best = i;
-    if (std::fabs(a[best][k]) < 1e-6) return false;
-    for (int j = 0; j <= n; ++j) std::swap(a[k][j], a[best][j]);
-    for (int i = 0; i < n; ++i) {
-      if (i == k) continue;
-      const double factor = a[i][k] / a[k][k];
-      for (int j = k; j <= n; ++j) a[i][j] -= factor * a[k][j];
-    }
-  }
-  for (int k = 0; k < n; ++k) a[k][n] /= a[k][k];
-  return true;
-}
-
 }  // namespace bondlab

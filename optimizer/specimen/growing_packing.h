@@ -68,8 +68,4 @@ class GrowingPacking {
   mutable std::vector<Surface> surfaces_;
 };
 
-// a x = b by elimination with row exchange, b in column n, which holds x then; false when (nearly)
-// singular. For rows of about unit length.
-bool solve_small(double a[4][5], int n);
-
 }  // namespace bondlab

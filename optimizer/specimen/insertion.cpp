@@ -5,12 +5,14 @@
 #include <cmath>
 
 #include "specimen/growing_packing.h"
+#include "specimen/small_system.h"
 
 namespace bondlab {
 
 namespace {
 
 constexpr int most_steps = 50;             // of Newton's rule; it takes 4 to 8 where it converges
+constexpr double singular = 1e-6;          // pivot of touching surfaces
 constexpr double allowed_error = 1e-13;    // of the distances it ends at, over r_max
 constexpr double allowed_overlap = 1e-10;  // over r_max; taken off the radius then
 
@@ -66,7 +68,7 @@ bool fit_between(const GrowingPacking &packing, int dimension, double r_max, Par
       worst = std::max(worst, std::fabs(a[i][unknowns]));
     }
     if (worst <= allowed_error * r_max) return true;
-    if (!solve_small(a, unknowns)) return false;
+    if (!solve_small(a, unknowns, singular)) return false;
     double length = 0;
     for (int k = 0; k < dimension; ++k) length = std::max(length, std::fabs(a[k][unknowns]));
     const double share = length > r_max ? r_max / length : 1;
