@@ -48,6 +48,8 @@ Eigen::MatrixXd shrunk_covariance(const Eigen::MatrixXd &sample) {
   return shrunk_covariance_of(deviations_of(sample), dof_of(sample));
 }
 
+double widening(double samples) { return (samples - 1) / std::max(1.0, samples - 3); }
+
 Eigen::VectorXd variances(const Eigen::MatrixXd &sample) {
   if (sample.rows() < 2) return Eigen::VectorXd::Zero(sample.cols());
   return deviations_of(sample).colwise().squaredNorm().transpose() / std::max(1.0, dof_of(sample));

@@ -11,8 +11,8 @@
 //   its logarithm is drawn towards that of all quantities together by what chance allows (an
 //   empirical Bayes estimate, normal with sd 0.5 before the data, or with what lies beyond chance
 //   where that is more), and is never below none; what stays unknown of it is added, so that a row
-//   whose noise few specimens tell counts for less. The excess is independent from row to row. A row
-//   whose own specimens scatter more still than chance allows is given what they show.
+//   whose noise few specimens tell counts for less. The excess is independent from row to row. A
+//   row whose own specimens scatter more still than chance allows is given what they show.
 // Source: Schaefer & Strimmer, Stat. Appl. Genet. Mol. Biol. 4 (2005) 32, eq. 10 (target D).
 // Units: squared units of the rows. Failure: one sample has covariance zero.
 #pragma once
@@ -27,6 +27,9 @@ Eigen::MatrixXd shrunk_covariance(const Eigen::MatrixXd &sample);
 
 // The same of deviations that have been taken off their means; `dof` of them are independent.
 Eigen::MatrixXd shrunk_covariance_of(const Eigen::MatrixXd &deviations, double dof);
+
+// What the variance of a mean of so many samples is widened by, as Student's.
+double widening(double samples);
 
 // Variances over samples, one a column.
 Eigen::VectorXd variances(const Eigen::MatrixXd &sample);

@@ -18,46 +18,45 @@ double left_of_placebo(const Linearisation &model, std::size_t effect, const Eig
     if (random.uniform() < 0.5) placebo(row) = -placebo(row);
   Eigen::MatrixXd columns(placebo.size(), model.jacobian.cols() + 1);
   columns << model.jacobian, placebo;
-  const Eigen::VectorXd x =
-      Eigen::MatrixXd(on.asDiagonal() * columns)
-          .colPivHouseholderQr()
-          .solve(Eigen::VectorXd(model.residual.cwiseProduct(on)));
+  const Eigen::VectorXd x = Eigen::MatrixXd(on.asDiagonal() * columns)
+                                .colPivHouseholderQr()
+                                .solve(Eigen::VectorXd(model.residual.cwiseProduct(on)));
   const Eigen::VectorXd left = model.residual - columns * x;
   return (left.array() * (1 - on.array())).matrix().squaredNorm();
 }
 
 }  // namespace
 
-CrossGap cross_gap(Prober &prober, const Evidence &evidence,
+CrossGap cross_gap(Prober &prober, Prober &with_effects, const Evidence &evidence,
                    const std::vector<EffectEntry> &catalogue, const Diagnosis &diagnosis,
                    std::uint64_t seed) {
   CrossGap out;
   const auto &effects = diagnosis.after.effects;
-  const Whitening whitening(evidence, prober.uncertainty(diagnosis.after.point));
+  const Whitening whitening(evidence, with_effects.uncertainty(diagnosis.after.point));
   const Linearisation model = linearise(prober, whitening, diagnosis.before.point);
+  const Linearisation model_with = linearise(with_effects, whitening, diagnosis.before.point);
   RandomStream random(seed, 33);
   for (const auto &series : evidence.series) {
     Eigen::VectorXd on = Eigen::VectorXd::Ones(whitening.rows());
     on.segment(series.first, series.count).setZero();
-    const auto left = [&](const Refit &fit) {
-      const Eigen::VectorXd residual = whitening.residual(prober.probe({fit.point}).front());
+    const auto left = [&](Prober &of, const Refit &fit) {
+      const Eigen::VectorXd residual = whitening.residual(of.probe({fit.point}).front());
       return residual.segment(series.first, series.count).squaredNorm();
     };
     const Refit alone = refit(prober, whitening, catalogue, model, {}, on);
-    const Refit with = refit(prober, whitening, catalogue, model, effects, on);
+    const Refit with = refit(with_effects, whitening, catalogue, model_with, effects, on);
     if (!alone.ok || !with.ok) continue;
-    const Linearisation there = linearise(prober, whitening, with.point);
+    const Linearisation there = linearise(with_effects, whitening, with.point);
     Eigen::MatrixXd columns(series.count, with.covariance.cols());
-    columns.leftCols(there.jacobian.cols()) =
-        there.jacobian.middleRows(series.first, series.count);
+    columns.leftCols(there.jacobian.cols()) = there.jacobian.middleRows(series.first, series.count);
     for (std::size_t k = 0; k < effects.size(); ++k)
       columns.col(there.jacobian.cols() + static_cast<Eigen::Index>(k)) =
           there.traces.col(static_cast<Eigen::Index>(effects[k]))
               .segment(series.first, series.count);
     const double unknown = (columns * with.covariance).cwiseProduct(columns).sum();
     if (unknown > most_unknown * series.count) continue;
-    out.before += left(alone);
-    out.after += left(with);
+    out.before += left(prober, alone);
+    out.after += left(with_effects, with);
     out.floor += series.count + unknown;
     double placebo = 0;
     for (int draw = 0; draw < placebo_draws && !effects.empty(); ++draw)

@@ -26,7 +26,9 @@ struct CrossGap {
   }
 };
 
-CrossGap cross_gap(Prober &prober, const Evidence &evidence,
+// `prober` is the model of the parameters alone, `with_effects` that of the fit after: the same, or
+// the one made right there.
+CrossGap cross_gap(Prober &prober, Prober &with_effects, const Evidence &evidence,
                    const std::vector<EffectEntry> &catalogue, const Diagnosis &diagnosis,
                    std::uint64_t seed);
 

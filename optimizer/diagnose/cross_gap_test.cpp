@@ -9,8 +9,8 @@ namespace bondlab::diagnose {
 namespace {
 
 CrossGap gap_of(Bench &bench, const BenchRun &run, std::uint64_t number) {
-  return cross_gap(bench.setup(bench.rock_of(number)).laboratory, run.evidence, bench_catalogue(),
-                   run.diagnosis, 1);
+  auto &laboratory = bench.setup(bench.rock_of(number)).laboratory;
+  return cross_gap(laboratory, laboratory, run.evidence, bench_catalogue(), run.diagnosis, 1);
 }
 
 TEST(CrossGap, RightEffectPredictsSeriesThatItWasNotFittedTo) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "base/random.h"
 #include "base/user_error.h"
@@ -16,12 +17,18 @@ namespace {
 constexpr double quantile_90 = 1.2816, interval = 1.959964;
 constexpr int resamples = 200;
 constexpr double stable = 0.8;
+constexpr int most_anchors = 2;                    // an explanation
+constexpr double worth_checking = 20;              // behind the best in deviance
+constexpr double settled = 2;                      // of chi squared, gained by the last anchor
+constexpr double hopeless = 2, hopeless_pair = 4;  // times what chance leaves
 
 // One way to explain the data: a single effect or a pair.
 struct Explanation {
   Refit fit;
-  bool significant = false;  // each member is needed
-  bool complete = false;     // nothing is left
+  std::optional<ModelPoint> anchor;  // where the model was made right for it
+  double left = 0;                   // largest score of what is left, over what chance leaves
+  bool significant = false;          // each member is needed
+  bool complete = false;             // nothing is left
   std::vector<Spot> remains;
 };
 
@@ -39,6 +46,9 @@ class Work {
 
  private:
   Explanation explain(const std::vector<std::size_t> &effects);
+  void judge(Explanation &out, const Linearisation &model);
+  void check(Explanation &out);
+  void check_best(std::vector<Explanation> &list, std::size_t most, double most_left);
   std::vector<Spot> beyond_null(const Omnibus::Prepared &prepared,
                                 const Eigen::VectorXd &residual) const;
   double second_score(const Refit &fit, const Linearisation &model) const;
@@ -99,19 +109,63 @@ Explanation Work::explain(const std::vector<std::size_t> &effects) {
     model = linearise(prober_, wider, out_.model.point);
     out.fit = refit(prober_, wider, setup_.catalogue, model, effects);
   }
-  if (!out.fit.ok) return out;
-  Tried tried{effects, {}, out.fit.deviance};
-  for (const auto effect : effects)
+  if (out.fit.ok) judge(out, model);
+  return out;
+}
+
+// What is left of it, and its entry in the list of what was tried.
+void Work::judge(Explanation &out, const Linearisation &model) {
+  Tried tried{out.fit.effects, {}, out.fit.deviance};
+  for (const auto effect : tried.effects)
     tried.amplitudes.push_back(out.fit.point.amplitude(static_cast<Eigen::Index>(effect)));
-  out_.tried.push_back(tried);
+  const auto before = std::find_if(out_.tried.begin(), out_.tried.end(),
+                                   [&](const Tried &t) { return t.effects == tried.effects; });
+  if (before == out_.tried.end())
+    out_.tried.push_back(tried);
+  else
+    *before = tried;
   const Projection fitted(out.fit.columns);
   const Omnibus::Prepared prepared(*omnibus_, fitted);
-  out.remains = beyond_null(prepared, fitted.off(out.fit.residual));
+  const Eigen::VectorXd rest = fitted.off(out.fit.residual);
+  out.remains = beyond_null(prepared, rest);
   const double asked = second_score(out.fit, model);
+  out.left = std::max(prepared.largest(rest).score / setup_.null.omnibus_strict,
+                      asked / setup_.null.trace_strict);
   out.complete = out.remains.empty() && asked < setup_.null.trace_strict;
   if (asked >= setup_.null.trace_strict)
     out.remains.push_back({"a further effect of the catalogue", asked});
-  return out;
+}
+
+// Where the engine itself has an explanation: the model is made right there, and fitted again.
+void Work::check(Explanation &out) {
+  for (int count = 0; count < most_anchors; ++count) {
+    const ModelPoint anchor = out.fit.point;
+    const auto near = prober_.anchored(anchor);
+    if (!near) return;
+    const Whitening whitening(evidence_, near->uncertainty(anchor));
+    const Linearisation there = linearise(*near, whitening, anchor);
+    const Refit fit = refit(*near, whitening, setup_.catalogue, there, out.fit.effects);
+    if (!fit.ok) return;
+    out.fit = fit;
+    out.anchor = anchor;
+    judge(out, there);
+    if (there.residual.squaredNorm() - fit.chi2 < settled) return;
+  }
+}
+
+// Those near the best, the best first, and not those that leave far too much.
+void Work::check_best(std::vector<Explanation> &list, std::size_t most, double most_left) {
+  std::vector<Explanation *> near;
+  for (auto &e : list)
+    if (e.fit.admissible()) near.push_back(&e);
+  std::stable_sort(near.begin(), near.end(), [](const Explanation *a, const Explanation *b) {
+    return a->fit.deviance < b->fit.deviance;
+  });
+  const auto &alarm = setup_.null.trace_alarm;
+  if (near.empty() || out_.before.deviance - near.front()->fit.deviance < alarm * alarm) return;
+  const double best = near.front()->fit.deviance;
+  for (std::size_t i = 0; i < std::min(most, near.size()); ++i)
+    if (near[i]->fit.deviance - best < worth_checking && near[i]->left < most_left) check(*near[i]);
 }
 
 NamedEffect Work::named(const Refit &fit, std::size_t index) const {
@@ -176,11 +230,13 @@ bool Work::name_pair(const ScoreTable &scores, const std::vector<Explanation> &s
   if (pairs.size() > options_.confirmed_pairs) pairs.resize(options_.confirmed_pairs);
   std::vector<Explanation> explanations;
   for (const auto &pair : pairs) explanations.push_back(explain({pair.first, pair.second}));
+  check_best(explanations, options_.checked_pairs, hopeless_pair);
   const Explanation *best = nullptr;
   for (const auto &e : explanations)
     if (e.fit.admissible() && (!best || e.fit.deviance < best->fit.deviance)) best = &e;
   if (!best) return false;
   out_.after = best->fit;
+  out_.anchor = best->anchor;
   out_.remains = best->remains;
   if (!best->complete) return false;
   // Either member alone must lose more than what chance gives the best of a catalogue.
@@ -257,6 +313,7 @@ Diagnosis Work::run(const ModelPoint &start) {
     if (singles.size() == options_.confirmed || !near || score.gain <= 0) break;
     singles.push_back(explain({score.effect}));
   }
+  check_best(singles, options_.checked, hopeless);
   std::size_t best = singles.size();
   for (std::size_t i = 0; i < singles.size(); ++i)
     if (singles[i].fit.admissible() &&
@@ -268,6 +325,7 @@ Diagnosis Work::run(const ModelPoint &start) {
     const bool significant = std::sqrt(std::max(0.0, gain)) > setup_.null.trace_alarm;
     out_.remains = winner.remains;
     out_.after = winner.fit;
+    out_.anchor = winner.anchor;
     if (significant && winner.complete) {
       name_single(singles, best);
       return out_;

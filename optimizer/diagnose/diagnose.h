@@ -6,10 +6,11 @@
 // Method: refit the parameters -> omnibus and score tests against their null (null_table.h) ->
 //   nothing, unless one of them is passed. The best effects by score are confirmed by true refits
 //   of the model with the effect on (a trace is a tangent, an effect of ten noise units is not
-//   small). The best of them is named alone if nothing is left (omnibus within its null) and no
-//   second effect is asked for; all admissible effects whose refit is within 6.63 in chi squared
-//   stand beside it, as does every effect that wins in more than a fifth of parametric resamples.
-//   Else pairs: all by score, the best by refit, and a pair is named if nothing is left, if either
+//   small); near the best of them the model is made right (Prober::anchored) and they are fitted
+//   again. The best is named alone if nothing is left (omnibus within its null) and no second
+//   effect is asked for; all admissible effects whose refit is within 6.63 in chi squared stand
+//   beside it, as does every effect that wins in more than a fifth of parametric resamples. Else
+//   pairs: all by score, the best by refit, and a pair is named if nothing is left, if either
 //   member alone loses more than the threshold of a single effect, and with the same margin to the
 //   next pair. Else it is not in the catalogue.
 //   Explanations are compared by deviance, chi squared plus the log determinant of the rows'
@@ -20,6 +21,7 @@
 //   UserError. Limits: parameters' intervals are linear at the refit point.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,6 +68,7 @@ struct Diagnosis {
   double predicted_gain = 0, realised_gain = 0;
   std::vector<double> smallest_size;  // one an effect: seen with 90 %; infinite when hidden
   Refit before, after;                // `after` as `before` when nothing is named
+  std::optional<ModelPoint> anchor;   // where the model was made right for `after`
   std::vector<Tried> tried;
   NoiseEstimate noise;
   Linearisation model;  // at the base refit, for isolability and advice
@@ -74,7 +77,9 @@ struct Diagnosis {
 struct DiagnoseOptions {
   std::size_t confirmed = 5;        // single effects refitted
   std::size_t confirmed_pairs = 6;  // pairs refitted
-  double worth_refitting = 30;      // chi squared behind the best by score
+  std::size_t checked = 3;          // of them, those that the model is made right for
+  std::size_t checked_pairs = 2;
+  double worth_refitting = 30;  // chi squared behind the best by score
   std::uint64_t seed = 1;
 };
 

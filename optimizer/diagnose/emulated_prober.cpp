@@ -6,14 +6,14 @@
 #include <limits>
 #include <numeric>
 
+#include "diagnose/anchored_prober.h"
 #include "diagnose/covariance.h"
 
 namespace bondlab::diagnose {
 
 namespace {
 
-constexpr double bend_needed = 2.5;  // standard errors
-constexpr int least_packings = 3;    // that a row's change is known from
+constexpr std::size_t least_anchors = 4;
 constexpr double unknown_variance = 9;
 constexpr double least_share = 0.2;              // of a step that a bound leaves
 constexpr double covered = 2, longest_move = 4;  // in steps
@@ -25,99 +25,13 @@ std::vector<int> first(int count) {
   return out;
 }
 
-// Of an estimate's variance from this many packings.
-double widening(double packings) { return (packings - 1) / std::max(1.0, packings - 3); }
-
-double variance_of(const Eigen::VectorXd &values) {
-  return (values.array() - values.mean()).square().sum() /
-         std::max<double>(1, static_cast<double>(values.size()) - 1);
-}
-
 }  // namespace
 
-Eigen::MatrixXd EmulatedProber::Way::at(double x) const {
-  if (x < 0 && below.size() > 0) return below * x;
-  const double inside = std::clamp(x, low, high), beyond = x - inside;
-  return linear * x + squared * (inside * inside + 2 * inside * beyond);
-}
-
-Eigen::RowVectorXd EmulatedProber::Way::noise_at(double x) const {
-  return (x < 0 && below.size() > 0 ? noise_below : noise) * x;
-}
-
-EmulatedProber::Way EmulatedProber::way(const std::vector<double> &knots,
-                                        const std::vector<Eigen::MatrixXd> &changes) const {
-  Way out;
-  out.low = std::min(0.0, *std::min_element(knots.begin(), knots.end()));
-  out.high = std::max(0.0, *std::max_element(knots.begin(), knots.end()));
-  const Eigen::Index packings = changes.front().rows(), rows = changes.front().cols();
-  out.linear = out.squared = Eigen::MatrixXd::Zero(packings, rows);
-  out.noise = Eigen::RowVectorXd::Zero(rows);
-  out.unknown = Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(rows, false);
-  const auto count = static_cast<Eigen::Index>(knots.size());
-  Eigen::MatrixXd bent(count, 2);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const double x = knots[static_cast<std::size_t>(k)];
-    bent.row(k) << x, x * x;
-  }
-  const Eigen::VectorXd straight = bent.col(0);
-  const Eigen::MatrixXd solve_bent =
-      count > 1 ? Eigen::MatrixXd(bent.completeOrthogonalDecomposition().pseudoInverse())
-                : Eigen::MatrixXd();
-  for (Eigen::Index row = 0; row < rows; ++row) {
-    std::vector<Eigen::Index> known;
-    Eigen::MatrixXd values(count, packings);
-    for (Eigen::Index p = 0; p < packings; ++p) {
-      for (Eigen::Index k = 0; k < count; ++k)
-        values(k, p) = changes[static_cast<std::size_t>(k)](p, row);
-      if (values.col(p).allFinite()) known.push_back(p);
-    }
-    if (static_cast<int>(known.size()) < least_packings) {
-      out.unknown(row) = true;
-      continue;
-    }
-    Eigen::VectorXd linear = Eigen::VectorXd::Zero(packings), squared = linear;
-    const auto of_known = [&](const Eigen::VectorXd &all) {
-      Eigen::VectorXd some(static_cast<Eigen::Index>(known.size()));
-      for (std::size_t i = 0; i < known.size(); ++i)
-        some(static_cast<Eigen::Index>(i)) = all(known[i]);
-      return some;
-    };
-    bool bends = false;
-    if (count > 1) {
-      for (const auto p : known) {
-        const Eigen::Vector2d both = solve_bent * values.col(p);
-        linear(p) = both(0), squared(p) = both(1);
-      }
-      const Eigen::VectorXd some = of_known(squared);
-      const double error = std::sqrt(variance_of(some) / static_cast<double>(some.size()));
-      bends = std::abs(some.mean()) > bend_needed * error;
-    }
-    if (!bends) {
-      squared.setZero();
-      for (const auto p : known) linear(p) = straight.dot(values.col(p)) / straight.squaredNorm();
-      const Eigen::VectorXd some = of_known(linear);
-      const auto count_known = static_cast<double>(some.size());
-      const double error2 = widening(count_known) * variance_of(some) / count_known;
-      const double mean2 = some.mean() * some.mean();
-      if (mean2 > 0) out.noise(row) = some.mean() * std::min(1.0, error2 / mean2);
-    }
-    // Packings that lack the row stand at the mean, which leaves mean and scatter as they are.
-    const double linear_mean = of_known(linear).mean(), squared_mean = of_known(squared).mean();
-    for (Eigen::Index p = 0; p < packings; ++p)
-      if (!values.col(p).allFinite()) linear(p) = linear_mean, squared(p) = squared_mean;
-    out.linear.col(row) = linear;
-    out.squared.col(row) = squared;
-  }
-  out.dead = out.unknown.all();
-  return out;
-}
-
-EmulatedProber::Way EmulatedProber::dead_way() const {
+Way EmulatedProber::dead_way() const {
   const Eigen::MatrixXd none =
       Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(effect_packings_.size()), rows_.cols(),
                                 std::numeric_limits<double>::quiet_NaN());
-  Way out = way({1.0}, {none});
+  Way out = way_through({1.0}, {none});
   widen(out);
   return out;
 }
@@ -136,16 +50,16 @@ void EmulatedProber::widen(Way &way) const {
   }
 }
 
-EmulatedProber::Way EmulatedProber::effect_way(const std::vector<double> &knots,
-                                               const std::vector<Eigen::MatrixXd> &changes) const {
+Way EmulatedProber::effect_way(const std::vector<double> &knots,
+                               const std::vector<Eigen::MatrixXd> &changes) const {
   Way out;
   if (knots.front() > 0) {
-    out = way(knots, changes);
+    out = way_through(knots, changes);
   } else {
-    const Way lower = way({knots.front()}, {changes.front()});
+    const Way lower = way_through({knots.front()}, {changes.front()});
     out = lower;
     if (knots.size() > 1) {
-      out = way({knots.begin() + 1, knots.end()}, {changes.begin() + 1, changes.end()});
+      out = way_through({knots.begin() + 1, knots.end()}, {changes.begin() + 1, changes.end()});
       out.below = lower.linear;
       out.noise_below = lower.noise;
       out.low = lower.low;
@@ -173,6 +87,7 @@ EmulatedProber::EmulatedProber(ForwardProber &engine, const std::vector<EffectEn
       centre_(centre),
       packings_(first(std::min(std::max(plan.parameters, plan.differences), plan.centre))),
       effect_packings_(first(std::min(plan.differences, plan.centre))),
+      anchor_packings_(first(std::min(plan.anchors, static_cast<int>(packings_.size())))),
       step_(plan.step) {
   std::vector<ModelPoint> points, effect_points;
   for (std::size_t i = 0; i < engine.parameters(); ++i) {
@@ -213,7 +128,7 @@ EmulatedProber::EmulatedProber(ForwardProber &engine, const std::vector<EffectEn
   std::size_t at = 0, at_effect = 0;
   for (std::size_t i = 0; i < engine.parameters(); ++i)
     parameters_.push_back(
-        way(parameter_knots_[i], take(points, packings_, at, parameter_knots_[i].size())));
+        way_through(parameter_knots_[i], take(points, packings_, at, parameter_knots_[i].size())));
   for (std::size_t k = 0; k < engine.effects() && with_effects; ++k) {
     const auto knots = knots_of(catalogue[k]);
     effects_.push_back(planned(k) ? effect_way(knots, take(effect_points, effect_packings_,
@@ -284,20 +199,38 @@ std::vector<Eigen::VectorXd> EmulatedProber::probe(const std::vector<ModelPoint>
   return out;
 }
 
+Eigen::MatrixXd EmulatedProber::covariance_of(const Eigen::MatrixXd &changes, double factor) const {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(changes.cols(), changes.cols());
+  Eigen::Index first_row = 0;
+  for (const auto &series : engine_.series()) {
+    const auto count = static_cast<Eigen::Index>(series.quantities.size());
+    out.block(first_row, first_row, count, count) =
+        factor * shrunk_covariance(changes.middleCols(first_row, count));
+    first_row += count;
+  }
+  return out;
+}
+
+std::unique_ptr<Prober> EmulatedProber::anchored(const ModelPoint &point) {
+  engine_.prepare({point}, anchor_packings_);
+  const Eigen::MatrixXd there = engine_.by_packing(point, anchor_packings_);
+  std::vector<Eigen::Index> whole;  // packings that lack no row
+  for (Eigen::Index p = 0; p < there.rows(); ++p)
+    if (there.row(p).allFinite()) whole.push_back(p);
+  if (whole.size() < least_anchors) return nullptr;
+  Eigen::MatrixXd change(static_cast<Eigen::Index>(whole.size()), there.cols());
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    change.row(static_cast<Eigen::Index>(i)) = there.row(whole[i]) - rows_.row(whole[i]);
+  return std::make_unique<AnchoredProber>(*this, point, whole, change);
+}
+
 Eigen::MatrixXd EmulatedProber::uncertainty(const ModelPoint &point) {
   const Eigen::MatrixXd changed = changes(point);
   const auto packings = static_cast<double>(packings_.size());
   const bool with_effects = (point.amplitude.array() != 0).any();
   const double widened =
       widening(with_effects ? static_cast<double>(effect_packings_.size()) : packings) / packings;
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(rows_.cols(), rows_.cols());
-  Eigen::Index first_row = 0;
-  for (const auto &series : engine_.series()) {
-    const auto count = static_cast<Eigen::Index>(series.quantities.size());
-    out.block(first_row, first_row, count, count) =
-        widened * shrunk_covariance(changed.middleCols(first_row, count));
-    first_row += count;
-  }
+  Eigen::MatrixXd out = covariance_of(changed, widened);
   const auto doubt = [&](const Way &way) {
     for (Eigen::Index row = 0; row < rows_.cols(); ++row)
       if (way.unknown(row)) out(row, row) += unknown_variance * scatter_(row);
@@ -337,6 +270,23 @@ void EmulatedProber::renew(std::size_t effect, const EffectEntry &entry) {
   for (const auto &point : points)
     changes.push_back(engine_.by_packing(point, effect_packings_) - own);
   effects_[effect] = effect_way(knots, changes);
+}
+
+Eigen::MatrixXd EmulatedProber::engine_changes(const ModelPoint &point) {
+  engine_.prepare({point}, effect_packings_);
+  Eigen::MatrixXd out = engine_.by_packing(point, effect_packings_) -
+                        rows_.topRows(static_cast<Eigen::Index>(effect_packings_.size()));
+  for (Eigen::Index row = 0; row < out.cols(); ++row) {
+    const auto known = out.col(row).array().isFinite();
+    const auto count = known.count();
+    const double mean = count < least_packings ? 0
+                                               : known.select(out.col(row).array(), 0).sum() /
+                                                     static_cast<double>(count);
+    out.col(row) = count < least_packings
+                       ? Eigen::VectorXd::Zero(out.rows())
+                       : Eigen::VectorXd(known.select(out.col(row).array(), mean));
+  }
+  return out;
 }
 
 bool EmulatedProber::covers(std::size_t effect, double amplitude) const {

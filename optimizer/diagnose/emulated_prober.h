@@ -29,6 +29,7 @@
 
 #include <vector>
 
+#include "diagnose/coordinate_way.h"
 #include "diagnose/forward_prober.h"
 
 namespace bondlab::diagnose {
@@ -38,6 +39,7 @@ struct EmulatorPlan {
   int differences = 6;  // of them, those that effects are switched on on; at least 4
   double step = 0.12;   // of parameters, in x
   int parameters = 16;  // packings that parameters are stepped on, no fewer than `differences`
+  int anchors = 16;     // packings that the engine is run on where a fit is checked
   std::vector<std::size_t> effects = {};  // switched on; empty: all of the catalogue
 };
 
@@ -58,6 +60,14 @@ class EmulatedProber : public Prober {
   // The change from the centre on each packing alone: packings x rows, nothing shrunk. Their mean
   // is the mean change, and their covariance over their number that of the mean.
   Eigen::MatrixXd changes(const ModelPoint &point) const;
+  // The engine's own, on the packings that effects are switched on on. A row that some packings
+  // lack is the mean of the others there, and no change where fewer than three have it.
+  Eigen::MatrixXd engine_changes(const ModelPoint &point);
+  // Covariance of rows from changes (packings x rows), times a factor; series are independent.
+  Eigen::MatrixXd covariance_of(const Eigen::MatrixXd &changes, double factor) const;
+  // The emulator shifted to the engine's own rows at a point (anchored_prober.h); null when the
+  // engine has them on fewer than four packings.
+  std::unique_ptr<Prober> anchored(const ModelPoint &point) override;
   // Whether a fitted point's parameters lie within twice the steps that were made.
   bool covers(const ModelPoint &point) const;
   // The centre moved towards a point, as far as the steps can be trusted.
@@ -75,17 +85,6 @@ class EmulatedProber : public Prober {
   double trace_noise(std::size_t effect) const;
 
  private:
-  struct Way {                        // one coordinate
-    double low = 0, high = 0;         // outermost knots
-    Eigen::MatrixXd linear, squared;  // packings x rows
-    Eigen::MatrixXd below;            // slope at negative x, where it is another one; else empty
-    Eigen::RowVectorXd noise, noise_below;  // of the mean slopes, what chance makes
-    Eigen::Array<bool, Eigen::Dynamic, 1> unknown;
-    bool dead = false;
-    Eigen::MatrixXd at(double x) const;  // packings x rows
-    Eigen::RowVectorXd noise_at(double x) const;
-  };
-  Way way(const std::vector<double> &knots, const std::vector<Eigen::MatrixXd> &changes) const;
   Way dead_way() const;
   void widen(Way &way) const;  // from the effects' packings to those of the parameters
   Way effect_way(const std::vector<double> &knots,
@@ -96,6 +95,7 @@ class EmulatedProber : public Prober {
   ForwardProber &engine_;
   ModelPoint centre_;
   std::vector<int> packings_, effect_packings_;             // of the changes
+  std::vector<int> anchor_packings_;                        // among those
   ModelPoint moved(std::size_t parameter, double x) const;  // of the centre; cut at its bounds
   double coordinate(std::size_t parameter, const ModelPoint &point) const;
   std::vector<std::vector<double>> parameter_knots_;  // x

@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 const fs::path inputs = fs::path(BONDLAB_SOURCE_DIR) / "inputs";
 const fs::path frozen = inputs / "hidden" / "set.toml";
 const fs::path second = inputs / "hidden" / "set_weak.toml";
+const fs::path third = inputs / "hidden" / "set_pairs.toml";
 
 // Cases are not to be chosen by what a diagnosis makes of them. Who changes them says so here.
 TEST(HiddenSet, IsTheOneThatWasFrozen) {
@@ -27,6 +28,7 @@ TEST(HiddenSet, IsTheOneThatWasFrozen) {
             "433083079892b04a019d921a2457ba560f1ae8f7343452d2e7796788eadba775");
   EXPECT_EQ(sha256_file(second),
             "14585caf8ad00b2956dfae3911ba52bca0e1982d1f467b771942623445446486");
+  EXPECT_EQ(sha256_file(third), "9ec9b213cd67f8430d870b1426efd1c00397ab0e710659036e54196b42a4867b");
   EXPECT_EQ(sha256_file(read_hidden_set(second).laboratory),
             "0db8ac5d1b36776817e0d134b1049da6a7bcf986a55e62b0327a204c7d494f18");
 }
@@ -43,6 +45,19 @@ TEST(HiddenSet, SecondHasEffectsLeftOutOfTheCatalogueAndTenNulls) {
                 {"effect", 28}, {"outside", 6}, {"left_out", 4}, {"pair", 4}, {"null", 10}}));
   EXPECT_EQ(sizes.size(), 14u);
   for (const auto &[name, units] : sizes) EXPECT_EQ(units, (std::set<double>{10, 20})) << name;
+}
+
+TEST(HiddenSet, ThirdIsForPairsAndForWhatTheCatalogueLacks) {
+  std::map<std::string, int> kinds;
+  for (const auto &one : read_hidden_set(third).cases) {
+    ++kinds[one.kind];
+    if (one.kind == "pair") {
+      EXPECT_EQ(one.effects.size(), 2u) << one.id;
+    }
+  }
+  EXPECT_EQ(kinds, (std::map<std::string, int>{
+                       {"effect", 8}, {"outside", 5}, {"left_out", 5}, {"pair", 10}, {"null", 6}}));
+  EXPECT_EQ(read_hidden_set(third).laboratory, read_hidden_set(second).laboratory);
 }
 
 TEST(HiddenSet, HasFourteenEffectsInTwoSizesFiveFromOutsideThreePairsAndFourNulls) {
@@ -66,7 +81,7 @@ TEST(HiddenSet, NamesEffectsThatItsLaboratoryShowsInsideAndOutsideTheCatalogue) 
     return out;
   };
   const auto outside = names(read_effects(inputs / "hidden" / "outside"));
-  for (const auto &file : {frozen, second}) {
+  for (const auto &file : {frozen, second, third}) {
     const auto set = read_hidden_set(file);
     const auto inside =
         names(effects_of_study(read_study(set.laboratory), read_effects(inputs / "effects")));

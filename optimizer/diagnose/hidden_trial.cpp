@@ -9,8 +9,7 @@
 #include <set>
 #include <tuple>
 
-#include "diagnose/measuring_error.h"
-#include "diagnose/score.h"
+#include "diagnose/sizing.h"
 #include "study/measurement.h"
 
 namespace bondlab::diagnose {
@@ -18,130 +17,6 @@ namespace bondlab::diagnose {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int sizing_rounds = 2;
-
-// Data of a plan with nothing measured yet: what noise units are counted in.
-std::vector<MeasuredSeries> plan_of(const std::vector<ProbedSeries> &probed, int replicates) {
-  std::vector<MeasuredSeries> out;
-  for (const auto &p : probed) {
-    MeasuredSeries series;
-    series.probed = p;
-    series.replicates =
-        Eigen::MatrixXd::Zero(replicates, static_cast<Eigen::Index>(p.quantities.size()));
-    out.push_back(std::move(series));
-  }
-  return out;
-}
-
-class Sizer {
- public:
-  Sizer(StudyModel &model, int replicates)
-      : model_(model),
-        whitening_(plan_evidence(model, replicates)),
-        linear_(linearise(model.emulated(), whitening_, model.emulated().centre())),
-        fitted_(linear_.jacobian) {}
-
-  static Evidence plan_evidence(StudyModel &model, int replicates) {
-    auto evidence = evidence_of(model.study(), plan_of(model.engine().series(), 0),
-                                model.emulated().centre_rows());
-    for (auto &series : evidence.series) series.planned = replicates;
-    return without_data(evidence);
-  }
-
-  // The norm of the mean change without what the noise of few packings adds to it.
-  double units(const EffectDefinition &effect, double size) {
-    const Eigen::MatrixXd changes = this->changes(effect, size);
-    const auto count = static_cast<double>(changes.rows());
-    Eigen::MatrixXd off(changes.cols(), changes.rows());
-    for (Eigen::Index i = 0; i < changes.rows(); ++i)
-      off.col(i) = fitted_.off(whitening_.apply(changes.row(i).transpose()));
-    const Eigen::VectorXd mean = off.rowwise().mean();
-    const double noise = (off.colwise() - mean).squaredNorm() / (count * (count - 1));
-    return std::sqrt(std::max(0.0, mean.squaredNorm() - noise));
-  }
-
-  // The size with so many units, or the largest there is.
-  double size_of(const EffectDefinition &effect, double wanted, double largest) {
-    if (units(effect, largest) <= wanted) return largest;
-    double low = 0, high = largest;
-    for (int i = 0; i < 40; ++i) {
-      const double middle = 0.5 * (low + high);
-      (units(effect, middle) < wanted ? low : high) = middle;
-    }
-    return high;
-  }
-
- private:
-  Eigen::MatrixXd changes(const EffectDefinition &effect, double size) {  // packings x rows
-    auto &emulated = model_.emulated();
-    ModelPoint with = emulated.centre();
-    for (std::size_t k = 0; k < model_.effects().size(); ++k)
-      if (model_.effects()[k].name == effect.name)
-        with.amplitude(static_cast<Eigen::Index>(k)) = size / model_.catalogue()[k].switch_on;
-    Eigen::MatrixXd out = emulated.changes(with);
-    out.rowwise() += measuring(effect, size).transpose();
-    return out;
-  }
-
-  // What an error of measuring does to the centre's curves: packings as specimens of a campaign.
-  Eigen::VectorXd measuring(const EffectDefinition &effect, double size) {
-    auto &engine = model_.engine();
-    Eigen::VectorXd out = Eigen::VectorXd::Zero(engine.rows());
-    if (effect.measures.empty()) return out;
-    constexpr int campaign = 4;
-    const auto &series = engine.series();
-    const auto &study = model_.study();
-    std::vector<MeasuredRun> runs;
-    std::vector<std::map<std::string, double>> variables;
-    for (std::size_t t = 0; t < series.size(); ++t)
-      for (int packing = 0; packing < campaign; ++packing) {
-        const auto outcome = engine.curves(model_.emulated().centre(), packing)[t];
-        runs.push_back({study.test(series[t].test).definition.name, series[t].name, outcome.curve});
-        variables.push_back(outcome.deck_variables);
-      }
-    const auto rows_of = [&] {
-      Eigen::VectorXd rows(engine.rows());
-      Eigen::Index first = 0;
-      for (std::size_t t = 0; t < series.size(); ++t) {
-        const auto count = static_cast<Eigen::Index>(series[t].quantities.size());
-        Eigen::VectorXd mean = Eigen::VectorXd::Zero(count);
-        for (std::size_t i = t * campaign; i < (t + 1) * campaign; ++i)
-          mean += rows_of_curve(runs[i].curve, series[t].quantities,
-                                study.test(series[t].test).definition, variables[i]) /
-                  campaign;
-        rows.segment(first, count) = mean;
-        first += count;
-      }
-      return rows;
-    };
-    const Eigen::VectorXd without = rows_of();
-    apply_measuring_errors(effect, size, runs);
-    out = rows_of() - without;
-    // A cell that saturates takes rows away (no fall): nothing can be told of them here.
-    for (Eigen::Index row = 0; row < out.size(); ++row)
-      if (!std::isfinite(out(row))) out(row) = 0;
-    return out;
-  }
-
-  StudyModel &model_;
-  Whitening whitening_;
-  Linearisation linear_;
-  Projection fitted_;
-};
-
-// Empty, or the switch-on size that puts `size` between the two that are run: it is beyond them, or
-// so far below that a slope between them says nothing of it.
-std::map<std::size_t, double> beyond_sizes_run(StudyModel &model, const EffectDefinition &effect,
-                                               double size) {
-  for (std::size_t k = 0; k < model.effects().size(); ++k) {
-    const double switch_on = model.catalogue()[k].switch_on;
-    if (model.effects()[k].name != effect.name || model.emulated().knows(k, size / switch_on))
-      continue;
-    return {{k, std::copysign(size / 1.5, switch_on)}};
-  }
-  return {};
-}
 
 Study with_data(const Study &study, const fs::path &folder) {
   Study out = study;
@@ -235,7 +110,7 @@ std::vector<TrialCase> run_trial(const HiddenSet &set, const Study &laboratory,
                   plan.differences, model.effects().size()));
   model.start(probed(measured_series(with_data(laboratory, folder_of(blank)), true)));
   model.add_effects();
-  scale_to_noise(model, model.emulated(), Sizer::plan_evidence(model, set.replicates), say);
+  scale_to_noise(model, model.emulated(), plan_evidence(model, set.replicates), say);
   say(fmt::format("model made of {} runs, {} rows", model.runs(), model.engine().rows()));
   std::map<std::size_t, double> scales;
   for (std::size_t k = 0; k < model.catalogue().size(); ++k)
@@ -247,20 +122,10 @@ std::vector<TrialCase> run_trial(const HiddenSet &set, const Study &laboratory,
     auto &[sizes, units] = planned[c.id];
     for (const auto &name : c.effects) {
       const auto &effect = known(all, name, c);
-      const double bound = admissible_size(laboratory, effect);
-      for (int round = 0;; ++round) {
-        Sizer sizer(model, set.replicates);
-        const double size = sizer.size_of(effect, c.units, bound);
-        const auto further = round < sizing_rounds ? beyond_sizes_run(model, effect, size)
-                                                   : std::map<std::size_t, double>();
-        if (!further.empty()) {
-          model.rescale(further);
-          continue;
-        }
-        sizes.push_back(size);
-        units.push_back(sizer.units(effect, size));
-        break;
-      }
+      const Sized sized =
+          size_for(model, set.replicates, effect, c.units, admissible_size(laboratory, effect));
+      sizes.push_back(sized.size);
+      units.push_back(sized.units);
     }
     model.rescale(scales);
   }

@@ -13,6 +13,7 @@
 
 #include <Eigen/Dense>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "diagnose/row_key.h"
@@ -34,6 +35,9 @@ class Prober {
   // Covariance (rows x rows, not whitened) of what the prober does not know of its own rows at a
   // point, over and above the scatter that the evidence states. Empty: none, the model is exact.
   virtual Eigen::MatrixXd uncertainty(const ModelPoint &) { return {}; }
+  // The same model made right at this point, whatever that costs; it lives no longer than this one.
+  // Null: this one is as right as can be had there.
+  virtual std::unique_ptr<Prober> anchored(const ModelPoint &) { return nullptr; }
 };
 
 }  // namespace bondlab::diagnose

@@ -23,6 +23,8 @@ class RowSelection : public Prober {
   // `whole` must outlive the selection.
   RowSelection(Prober &whole, std::vector<Eigen::Index> rows)
       : whole_(whole), rows_(std::move(rows)) {}
+  RowSelection(std::unique_ptr<Prober> whole, std::vector<Eigen::Index> rows)
+      : owned_(std::move(whole)), whole_(*owned_), rows_(std::move(rows)) {}
 
   std::size_t parameters() const override { return whole_.parameters(); }
   std::size_t effects() const override { return whole_.effects(); }
@@ -39,11 +41,16 @@ class RowSelection : public Prober {
     if (all.size() == 0) return all;
     return columns_of(columns_of(all, rows_).transpose(), rows_);
   }
+  std::unique_ptr<Prober> anchored(const ModelPoint &point) override {
+    auto all = whole_.anchored(point);
+    return all ? std::make_unique<RowSelection>(std::move(all), rows_) : nullptr;
+  }
   Eigen::VectorXd of(const Eigen::VectorXd &all) const {
     return columns_of(all.transpose(), rows_).transpose();
   }
 
  private:
+  std::unique_ptr<Prober> owned_;
   Prober &whole_;
   std::vector<Eigen::Index> rows_;
 };

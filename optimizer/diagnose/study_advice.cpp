@@ -29,6 +29,21 @@ bool fails_held_out(const StudyDiagnosis &out) {
 
 }  // namespace
 
+void take_back(StudyDiagnosis &out) {
+  auto &d = out.diagnosis;
+  if (d.effects.empty() || out.cross.after - out.cross.before <= margin_needed) return;
+  std::vector<std::string> names;
+  for (const auto &named : d.effects) names.push_back(out.catalogue[named.effect].name);
+  out.advice.push_back(
+      fmt::format("nearest was {}, but series held out in turn are worse with it (chi squared "
+                  "{:.1f} before, {:.1f} "
+                  "after): it is not named",
+                  join(names), out.cross.before, out.cross.after));
+  d.verdict = Verdict::not_in_catalogue;
+  d.effects.clear();
+  d.margin = 0;
+}
+
 void give_not_alone(StudyDiagnosis &out) {
   auto &d = out.diagnosis;
   if (d.verdict != Verdict::one || !fails_held_out(out)) return;

@@ -4,14 +4,18 @@
 //   measure next.
 // Method: a single name becomes a set with every effect that was tried when the series held out is
 //   worse with it, by 6.63 in chi squared, or lies beyond chance (3 sd of a chi squared) and is no
-//   better with it. A series that the effect does not touch takes no name away. For a set, the tests of the study that were not measured are tried for the one
-//   that separates it (further_tests.h); besides, the effects' own words.
+//   better with it. A series that the effect does not touch takes no name away. For a set, the
+//   tests of the study that were not measured are tried for the one that separates it
+//   (further_tests.h); besides, the effects' own words.
 // Units: none. Failure: none.
 #pragma once
 
 #include "diagnose/study_diagnosis.h"
 
 namespace bondlab::diagnose {
+
+// Nothing is named when series held out in turn (cross_gap.h) are worse with it by 6.63.
+void take_back(StudyDiagnosis &out);
 
 void give_not_alone(StudyDiagnosis &out);
 

@@ -49,5 +49,25 @@ TEST_F(NotAlone, WithoutARivalItIsNotInTheCatalogue) {
   EXPECT_TRUE(out.diagnosis.effects.empty());
 }
 
+TEST_F(NotAlone, NameThatSeriesHeldOutInTurnAreWorseWithIsNotGiven) {
+  for (const auto verdict : {Verdict::one, Verdict::set, Verdict::two}) {
+    StudyDiagnosis worse = out;
+    worse.diagnosis.verdict = verdict;
+    worse.cross.before = 150, worse.cross.after = 178;
+    take_back(worse);
+    EXPECT_EQ(worse.diagnosis.verdict, Verdict::not_in_catalogue);
+    EXPECT_TRUE(worse.diagnosis.effects.empty());
+    ASSERT_EQ(worse.advice.size(), 1u);
+    EXPECT_NE(worse.advice.front().find("nearest was right"), std::string::npos);
+  }
+}
+
+TEST_F(NotAlone, NameStandsWhereSeriesHeldOutInTurnAreAsTheyWere) {
+  out.cross.before = 139, out.cross.after = 145;
+  take_back(out);
+  EXPECT_EQ(out.diagnosis.verdict, Verdict::one);
+  EXPECT_TRUE(out.advice.empty());
+}
+
 }  // namespace
 }  // namespace bondlab::diagnose

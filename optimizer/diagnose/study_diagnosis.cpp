@@ -255,20 +255,25 @@ StudyDiagnosis diagnose_measured(StudyModel &model, std::vector<MeasuredSeries> 
     for (const auto &row : emulated.confirm(points)) rows.push_back(prober.of(row));
     return rows;
   };
-  const auto finish = [&](Refit &fit) {
-    const Eigen::MatrixXd doubt = prober.uncertainty(fit.point);
+  const auto finish = [&](Refit &fit, Prober &model_there) {
+    const Eigen::MatrixXd doubt = model_there.uncertainty(fit.point);
     const Whitening whitening(evidence, doubt);
-    fit.columns = fit_columns(prober, whitening, fit.point, fit.effects);
+    fit.columns = fit_columns(model_there, whitening, fit.point, fit.effects);
     widen_covariance(
         fit, {study, parts.training, by_packing, evidence, doubt, whitening.undo(fit.columns), {}},
         options.seed);
     if (confirm) fit_on_engine(fit, engine_rows, whitening, out.catalogue);
   };
-  finish(out.diagnosis.before);
+  // The model that what was named was judged with.
+  std::unique_ptr<Prober> anchored;
+  if (out.diagnosis.anchor) anchored = emulated.anchored(*out.diagnosis.anchor);
+  Prober &whole_after = anchored ? *anchored : emulated;
+  RowSelection after(whole_after, parts.training_rows);
+  finish(out.diagnosis.before, prober);
   if (out.diagnosis.after.effects.empty())
     out.diagnosis.after = out.diagnosis.before;
   else
-    finish(out.diagnosis.after);
+    finish(out.diagnosis.after, after);
   renew_sizes(out);
 
   const auto &d = out.diagnosis;
@@ -286,7 +291,8 @@ StudyDiagnosis diagnose_measured(StudyModel &model, std::vector<MeasuredSeries> 
                                            residual, omnibus_alarm),
                   name_by_bic(scores, residual), name_by_lasso(scores, out.catalogue, residual)};
   }
-  if (!d.effects.empty()) out.cross = cross_gap(prober, evidence, out.catalogue, d, options.seed);
+  if (!d.effects.empty())
+    out.cross = cross_gap(prober, after, evidence, out.catalogue, d, options.seed);
   const ParameterSpace space(study.parameters);
   out.parameters_before = model.engine().physical(d.before.point);
   out.parameters_after = model.engine().physical(d.after.point);
@@ -299,17 +305,17 @@ StudyDiagnosis diagnose_measured(StudyModel &model, std::vector<MeasuredSeries> 
   for (std::size_t k = 0; k < out.catalogue.size(); ++k)
     out.sizes.push_back(d.after.point.amplitude(static_cast<Eigen::Index>(k)) *
                         out.catalogue[k].switch_on);
-  RowSelection whole(emulated, all_rows);
+  RowSelection whole(emulated, all_rows), whole_with(whole_after, all_rows);
   const std::vector<ModelPoint> fits = {d.before.point, d.after.point};
   std::vector<Eigen::VectorXd> rows;
   if (confirm)
     for (const auto &row : emulated.confirm(fits)) rows.push_back(whole.of(row));
   else
-    rows = whole.probe(fits);
+    rows = {whole.probe({fits[0]}).front(), whole_with.probe({fits[1]}).front()};
   for (std::size_t i = 0; i < 2; ++i)
     if (!rows[i].allFinite()) {
       out.advice.push_back("the engine's own runs at the fit lack figures: the emulator's stand");
-      rows[i] = whole.probe({fits[i]}).front();
+      rows[i] = (i == 0 ? whole : whole_with).probe({fits[i]}).front();
     }
   measure_gaps(whole, evidence_of(study, series, columns_of(emulated.centre_rows(), all_rows)),
                rows, out, options.seed);
@@ -323,6 +329,7 @@ StudyDiagnosis diagnose_measured(StudyModel &model, std::vector<MeasuredSeries> 
         if (probed[i].name == s.probed.name)
           out.shown.push_back({s.probed.name, s.curves, before[i].curve, after[i].curve});
   }
+  take_back(out);
   give_not_alone(out);
   if (confirm) advise_tests(model, series, out);
   advise_on(out);

@@ -7,12 +7,15 @@
 #include <utility>
 
 #include "diagnose/covariance.h"
+#include "diagnose/sensor_noise.h"
 #include "forward/run_plan.h"
 
 namespace bondlab::diagnose {
 
 namespace {
 
+constexpr std::uint64_t sensor_seed = 1;
+constexpr double sensor_dof = 60;    // of its variance: some replicates, twelve draws each
 constexpr double instrument = 1e-3;  // sd of a row that no laboratory is better than, one specimen
 
 MeasuredSeries from_curves(const Study &study, const Measurement &measurement, bool whole) {
@@ -54,6 +57,8 @@ MeasuredSeries from_curves(const Study &study, const Measurement &measurement, b
   out.replicates.resize(rows.rows(), static_cast<Eigen::Index>(kept.size()));
   for (std::size_t j = 0; j < kept.size(); ++j)
     out.replicates.col(static_cast<Eigen::Index>(j)) = rows.col(kept[j]);
+  out.sensors =
+      sensor_variance(out.curves, out.probed.quantities, test.definition, variables, sensor_seed);
   return out;
 }
 
@@ -87,31 +92,41 @@ std::vector<MeasuredSeries> from_targets(const Study &study) {
   return out;
 }
 
-// How much more than packings the specimens scatter, one a row; a quantity of one kind of test has
-// the same excess in all its series.
+// How much more than packings the specimens scatter, one a row: by their sensors, and besides; a
+// quantity of one kind of test has the same excess over both in all its series.
 Eigen::VectorXd excess_of(const Study &study, const std::vector<MeasuredSeries> &series,
                           const Eigen::MatrixXd &by_packing) {
   std::map<std::pair<std::string, std::string>, std::size_t> places;
   std::vector<ExcessTally> tallies;
   std::vector<std::size_t> tally_of_row;
   Eigen::Index row = 0;
+  Eigen::VectorXd by_sensors = Eigen::VectorXd::Zero(by_packing.cols());
+  const double packings_dof = static_cast<double>(by_packing.rows()) - 1;
   for (const auto &s : series) {
     const auto &test = study.test(s.probed.test).definition.name;
     const Eigen::VectorXd own = variances(s.replicates);
+    const Eigen::Index first = row;
     for (std::size_t j = 0; j < s.probed.quantities.size(); ++j, ++row) {
       const auto place =
           places.emplace(std::make_pair(test, s.probed.quantities[j].name), tallies.size());
       if (place.second) tallies.emplace_back();
       tally_of_row.push_back(place.first->second);
       if (s.stated.size() > 0) continue;
-      tallies[tally_of_row.back()].add(
-          own(static_cast<Eigen::Index>(j)), variances(by_packing.col(row))(0),
-          static_cast<double>(s.replicates.rows()) - 1, static_cast<double>(by_packing.rows()) - 1);
+      const double packings = variances(by_packing.col(row))(0),
+                   sensors = s.sensors.size() > 0 ? s.sensors(row - first) : 0;
+      if (packings > 0) by_sensors(row) = sensors / packings;
+      const double both = packings + sensors;
+      // Welch and Satterthwaite's, of a sum of two variances.
+      const double dof =
+          both * both / (packings * packings / packings_dof + sensors * sensors / sensor_dof);
+      tallies[tally_of_row.back()].add(own(static_cast<Eigen::Index>(j)), both,
+                                       static_cast<double>(s.replicates.rows()) - 1, dof);
     }
   }
   const auto excess = excess_scatter(tallies);
   Eigen::VectorXd out(row);
-  for (Eigen::Index i = 0; i < row; ++i) out(i) = excess[tally_of_row[static_cast<std::size_t>(i)]];
+  for (Eigen::Index i = 0; i < row; ++i)
+    out(i) = excess[tally_of_row[static_cast<std::size_t>(i)]] * (1 + by_sensors(i));
   return out;
 }
 
@@ -152,11 +167,14 @@ std::vector<Eigen::Index> keep_modelled(std::vector<MeasuredSeries> &series,
       quantities.push_back(s.probed.quantities[j]);
     }
     const Eigen::MatrixXd replicates = s.replicates, stated = s.stated;
+    const Eigen::VectorXd sensors = s.sensors;
     const auto left = static_cast<Eigen::Index>(kept.size());
     s.replicates.resize(replicates.rows(), left);
     if (stated.size() > 0) s.stated.resize(left, left);
+    if (sensors.size() > 0) s.sensors.resize(left);
     for (Eigen::Index i = 0; i < left; ++i) {
       s.replicates.col(i) = replicates.col(kept[static_cast<std::size_t>(i)]);
+      if (sensors.size() > 0) s.sensors(i) = sensors(kept[static_cast<std::size_t>(i)]);
       for (Eigen::Index j = 0; stated.size() > 0 && j < left; ++j)
         s.stated(i, j) =
             stated(kept[static_cast<std::size_t>(i)], kept[static_cast<std::size_t>(j)]);

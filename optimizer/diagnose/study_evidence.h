@@ -5,9 +5,10 @@
 // Method: a data folder's replicates give rows by the code that takes them from simulated curves; a
 //   row that any replicate lacks is left out. Without a folder the study's targets are the rows:
 //   their logarithms, with the sd stated. Specimens are taken to scatter as the simulation's
-//   packings do at the fitted point (measured), and besides by what the replicates of a quantity
-//   scatter more in all its series (covariance.h), and at least 0.1 %, which no instrument is
-//   better than; the mean over P packings has a P-th of the packings' covariance.
+//   packings do at the fitted point (measured) and as their sensors do (sensor_noise.h), and
+//   besides by what the replicates of a quantity scatter more in all its series (covariance.h), and
+//   at least 0.1 %, which no instrument is better than; the mean over P packings has a P-th of the
+//   packings' covariance.
 // Units: SI in; rows have none. Failure: UserError when nothing of the data can be compared.
 // Limits: an excess of one series alone is seen only as far as its own few specimens show it.
 #pragma once
@@ -26,6 +27,7 @@ struct MeasuredSeries {
   std::map<std::string, double> conditions;
   Eigen::MatrixXd replicates;  // specimens x quantities
   Eigen::MatrixXd stated;      // of one specimen; empty: as the packings scatter
+  Eigen::VectorXd sensors;     // variance that they make of one specimen's rows; empty: none seen
   std::vector<Curve> curves;   // for the page; empty for targets
 };
 
@@ -42,8 +44,8 @@ std::vector<Eigen::Index> keep_modelled(std::vector<MeasuredSeries> &series,
 std::vector<std::string> not_modelled(const std::vector<MeasuredSeries> &series,
                                       const std::vector<ProbedSeries> &model);
 
-// "TARGET, cohesion of envelope NAME" of the targets that no row of a single test can hold; none when
-// curves were measured instead of targets.
+// "TARGET, cohesion of envelope NAME" of the targets that no row of a single test can hold; none
+// when curves were measured instead of targets.
 std::vector<std::string> targets_of_envelopes(const Study &study);
 
 // Leaves out quantities whose simulated rows (packings x rows) are not finite or do not scatter.

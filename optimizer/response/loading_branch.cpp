@@ -13,6 +13,8 @@ namespace bondlab {
 
 namespace {
 
+constexpr double reached = 0.98;  // share of the end; the curve has a point every few steps
+
 const std::vector<double> &raw_column(const Curve &curve, const std::string &name) {
   const auto found = std::find(curve.names.begin(), curve.names.end(), name);
   if (found == curve.names.end())
@@ -61,6 +63,20 @@ std::size_t find_peak(const std::vector<double> &load) {
                     "stopped before the specimen failed",
                     100 * (1 - lowest_after / peak), 100 * minimum_drop_after_peak));
   return static_cast<std::size_t>(top - load.begin());
+}
+
+double greatest_until(const std::vector<double> &load, double end, const std::string &variable,
+                      double wanted) {
+  const double greatest = load.empty() ? 0 : *std::max_element(load.begin(), load.end());
+  if (!(greatest > 0))
+    throw ResponseError(ResponseCause::no_load, "the specimen never carried load");
+  const bool fell = load.back() < (1 - minimum_drop_after_peak) * greatest;
+  if (!fell && end < reached * wanted)
+    throw ResponseError(ResponseCause::test_not_finished,
+                        fmt::format("the test ended at {:.3g}, before {} ({:.3g}) and before the "
+                                    "load fell",
+                                    end, variable, wanted));
+  return greatest;
 }
 
 SampleWindow loading_window(const std::vector<double> &load, std::size_t peak, double lower,
@@ -125,8 +141,9 @@ double kinetic_share(const Curve &curve, SampleWindow window) {
   double worst = 0;
   for (std::size_t i = window.first; i < window.last; ++i) {
     if (!(strain[i] > 0))
-      throw ResponseError(ResponseCause::implausible,
-                          fmt::format("the strain energy at sample {} is {:g} J", i + 1, strain[i]));
+      throw ResponseError(
+          ResponseCause::implausible,
+          fmt::format("the strain energy at sample {} is {:g} J", i + 1, strain[i]));
     worst = std::max(worst, kinetic[i] / strain[i]);
   }
   return worst;

@@ -47,6 +47,12 @@ void require_monotonic_time(const Curve &curve);
 /// Index of the peak of `load`; ResponseError when there is no load or no fall behind the peak.
 std::size_t find_peak(const std::vector<double> &load);
 
+/// Greatest `load` of a test that is to end at `wanted` (a deck variable, whose name is given),
+/// with or without a peak before. ResponseError when it ended at `end`, short of that, and no load
+/// had fallen.
+double greatest_until(const std::vector<double> &load, double end, const std::string &variable,
+                      double wanted);
+
 /// Part of the loading branch between the two shares of the peak.
 SampleWindow loading_window(const std::vector<double> &load, std::size_t peak,
                             double lower = window_lower, double upper = window_upper);

@@ -50,6 +50,7 @@ const std::map<std::string, Function> &registry() {
       {"shear.normal_stress_at_peak", shear::normal_stress_at_peak},
       {"shear.normal_stress_at_residual", shear::normal_stress_at_residual},
       {"shear.peak_strength", shear::peak_strength},
+      {"shear.strength_within_shear", shear::strength_within_shear},
       {"shear.platen_imbalance", shear::platen_imbalance},
       {"shear.residual_strength", shear::residual_strength},
       {"uniaxial.bonds", uniaxial::bonds},

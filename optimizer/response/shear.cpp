@@ -43,6 +43,14 @@ double peak_strength(const Curve &curve, const ResponseContext &) {
   return b.stress[b.peak];
 }
 
+double strength_within_shear(const Curve &curve, const ResponseContext &context) {
+  require_monotonic_time(curve);
+  const auto &stress = finite_column(curve, "shear_stress");
+  const double across = context.positive(context.positive("dim") < 2.5 ? "width" : "diameter");
+  return greatest_until(stress, finite_column(curve, "displacement").back() / across, "max_shear",
+                        context.positive("max_shear"));
+}
+
 double residual_strength(const Curve &curve, const ResponseContext &) {
   return mean_of_the_end(curve, "shear_stress");
 }

@@ -11,8 +11,6 @@ namespace bondlab::uniaxial {
 
 namespace {
 
-constexpr double reached = 0.98;  // share of max_strain; the curve has a point every few steps
-
 struct LoadingBranch {
   const std::vector<double> &stress;
   std::size_t peak;
@@ -46,19 +44,8 @@ double peak_stress(const Curve &curve, const ResponseContext &) {
 double strength_within_strain(const Curve &curve, const ResponseContext &context) {
   require_monotonic_time(curve);
   const auto &stress = finite_column(curve, "axial_stress");
-  const double greatest =
-      stress.empty() ? 0 : *std::max_element(stress.begin(), stress.end());
-  if (!(greatest > 0))
-    throw ResponseError(ResponseCause::no_load, "the specimen never carried load");
-  const double end = finite_column(curve, "strain_machine").back();
-  const double wanted = context.positive("max_strain");
-  const bool fell = stress.back() < (1 - minimum_drop_after_peak) * greatest;
-  if (!fell && end < reached * wanted)
-    throw ResponseError(ResponseCause::test_not_finished,
-                        fmt::format("the test ended at a strain of {:.3g}, before max_strain "
-                                    "({:.3g}) and before the load fell",
-                                    end, wanted));
-  return greatest;
+  return greatest_until(stress, finite_column(curve, "strain_machine").back(), "max_strain",
+                        context.positive("max_strain"));
 }
 
 double peak_strain(const Curve &curve, const ResponseContext &) {
