@@ -115,6 +115,23 @@ TEST_F(Emulated, ConfirmIsTheEngineOnTheSamePackings) {
   EXPECT_NEAR(rows(ucs_peak), std::log(sigma * (1 + now / gap_scale)) + 3.5 * by_packing, 1e-9);
 }
 
+TEST_F(Emulated, EnginesChangesAreThoseOfThePackingsThatEffectsAreSwitchedOnOn) {
+  EmulatedProber emulated(engine, catalogue, engine.start(), plan);
+  const auto at = with(engine.start(), "bond_gap", 1.4);
+  const double now = gap * (1 + 1.4 * switch_on("bond_gap"));
+  const Eigen::MatrixXd changes = emulated.engine_changes(at);
+  ASSERT_EQ(changes.rows(), plan.differences);
+  for (Eigen::Index p = 0; p < changes.rows(); ++p)
+    EXPECT_NEAR(changes(p, ucs_peak), std::log((1 + now / gap_scale) / (1 + gap / gap_scale)),
+                1e-9);
+  // A test that gives nothing there is taken not to change.
+  model.failing = "brazilian";
+  const Eigen::MatrixXd some = emulated.engine_changes(with(engine.start(), "bond_gap", 1.7));
+  EXPECT_TRUE(some.allFinite());
+  EXPECT_EQ(some.col(brazilian_peak).norm(), 0);
+  EXPECT_GT(some.col(ucs_peak).norm(), 0.01);
+}
+
 TEST_F(Emulated, RenewedEffectIsTakenAtItsNewSize) {
   EmulatedProber emulated(engine, catalogue, engine.start(), plan);
   const auto k = static_cast<std::size_t>(index("bond_gap"));
