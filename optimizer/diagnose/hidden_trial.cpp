@@ -116,6 +116,9 @@ std::vector<TrialCase> run_trial(const HiddenSet &set, const Study &laboratory,
   for (std::size_t k = 0; k < model.catalogue().size(); ++k)
     scales[k] = model.catalogue()[k].switch_on;
   // Sizes of all cases, before the outsiders are shut out. What the sizes run do not reach is run.
+  const Evidence noise =
+      widened(plan_evidence(model, set.replicates),
+              wider_than_packings(model, measured_series(with_data(laboratory, folder_of(blank)))));
   std::map<std::string, std::pair<std::vector<double>, std::vector<double>>> planned;
   for (const auto &c : set.cases) {
     if (!wanted(c)) continue;
@@ -123,7 +126,7 @@ std::vector<TrialCase> run_trial(const HiddenSet &set, const Study &laboratory,
     for (const auto &name : c.effects) {
       const auto &effect = known(all, name, c);
       const Sized sized =
-          size_for(model, set.replicates, effect, c.units, admissible_size(laboratory, effect));
+          size_for(model, noise, effect, c.units, admissible_size(laboratory, effect));
       sizes.push_back(sized.size);
       units.push_back(sized.units);
     }

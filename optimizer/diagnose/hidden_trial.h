@@ -2,12 +2,11 @@
 //
 // Job: the diagnosis put to the test on the engine: every case of a hidden set made, diagnosed and
 //   judged.
-// Method: one StudyModel of the laboratory, catalogue and outsiders side by side, is made once
-// about
+// Method: one StudyModel of the laboratory, catalogue and outsiders side by side, is made once about
 //   the study's start; effects are taken at sizes that rise above the noise of the plan. A case's
-//   sizes follow from its noise units: the norm of the change, whitened as the plan has it, off
-//   what the parameters can do, without what few packings' noise adds to it; an effect whose
-//   largest size gives less is hidden at that size and the units it has are told. Data are made by
+//   sizes follow from its noise units (sizing.h), counted in what the laboratory's own specimens
+//   scatter where nothing is hidden; an effect whose largest size gives less is hidden at that size
+//   and the units it has are told. Data are made by
 //   hide_effect() and read back from their folder; for the diagnosis the outsiders' admissible size
 //   is zero, and that of an effect left out of the catalogue. What a case costs anew is its data,
 //   effects beyond the sizes run, and the engine at the fits before and after.

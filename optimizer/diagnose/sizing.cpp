@@ -6,7 +6,9 @@
 #include <limits>
 #include <map>
 
+#include "diagnose/covariance.h"
 #include "diagnose/measuring_error.h"
+#include "diagnose/row_selection.h"
 #include "diagnose/score.h"
 
 namespace bondlab::diagnose {
@@ -32,9 +34,9 @@ std::vector<MeasuredSeries> plan_of(const std::vector<ProbedSeries> &probed, int
 
 class Sizer {
  public:
-  Sizer(StudyModel &model, int replicates)
+  Sizer(StudyModel &model, const Evidence &plan)
       : model_(model),
-        whitening_(plan_evidence(model, replicates)),
+        whitening_(plan),
         linear_(linearise(model.emulated(), whitening_, model.emulated().centre())),
         fitted_(linear_.jacobian) {}
 
@@ -184,10 +186,33 @@ Sized search_size(const std::function<double(double)> &units, double first, doub
   return best;
 }
 
-Sized size_for(StudyModel &model, int replicates, const EffectDefinition &effect, double wanted,
-               double largest) {
+Eigen::VectorXd wider_than_packings(StudyModel &model, std::vector<MeasuredSeries> measured) {
+  const auto rows = keep_modelled(measured, model.engine().series());
+  const Evidence evidence =
+      evidence_of(model.study(), measured, columns_of(model.emulated().centre_rows(), rows));
+  const Eigen::VectorXd packings = variances(model.emulated().centre_rows());
+  Eigen::VectorXd out = Eigen::VectorXd::Ones(packings.size());
+  for (const auto &series : evidence.series)
+    for (int i = 0; i < series.count; ++i) {
+      const auto row = rows[static_cast<std::size_t>(series.first + i)];
+      const double least = instrument_sd * instrument_sd;
+      out(row) = std::sqrt(series.stated(i, i) / std::max(least, packings(row)));
+    }
+  return out;
+}
+
+Evidence widened(Evidence plan, const Eigen::VectorXd &wider) {
+  for (auto &series : plan.series) {
+    const auto by = wider.segment(series.first, series.count).asDiagonal();
+    series.stated = by * series.stated * by;
+  }
+  return plan;
+}
+
+Sized size_for(StudyModel &model, const Evidence &plan, const EffectDefinition &effect,
+               double wanted, double largest) {
   for (int round = 0;; ++round) {
-    Sizer sizer(model, replicates);
+    Sizer sizer(model, plan);
     const double size = sizer.size_of(effect, wanted, largest);
     const auto further = round < sizing_rounds ? beyond_sizes_run(model, effect, size)
                                                : std::map<std::size_t, double>();

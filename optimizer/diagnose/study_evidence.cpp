@@ -15,8 +15,7 @@ namespace bondlab::diagnose {
 namespace {
 
 constexpr std::uint64_t sensor_seed = 1;
-constexpr double sensor_dof = 60;    // of its variance: some replicates, twelve draws each
-constexpr double instrument = 1e-3;  // sd of a row that no laboratory is better than, one specimen
+constexpr double sensor_dof = 60;  // of its variance: some replicates, twelve draws each
 
 MeasuredSeries from_curves(const Study &study, const Measurement &measurement, bool whole) {
   MeasuredSeries out;
@@ -255,7 +254,7 @@ Evidence evidence_of(const Study &study, const std::vector<MeasuredSeries> &seri
             : specimen_covariance(by_packing.middleCols(evidence.first, evidence.count),
                                   s.replicates, excess.segment(evidence.first, evidence.count));
     // Before others read it: a row that hardly scatters would count for more than any instrument.
-    evidence.stated.diagonal() = evidence.stated.diagonal().cwiseMax(instrument * instrument);
+    evidence.stated.diagonal() = evidence.stated.diagonal().cwiseMax(instrument_sd * instrument_sd);
     evidence.simulated = covariance / static_cast<double>(by_packing.rows());
     for (const auto &q : s.probed.quantities)
       out.rows.push_back({evidence.test, evidence.name, q.part, q.name});

@@ -22,6 +22,8 @@
 
 namespace bondlab::diagnose {
 
+constexpr double instrument_sd = 1e-3;  // of a row: no laboratory is better, one specimen
+
 struct MeasuredSeries {
   ProbedSeries probed;
   std::map<std::string, double> conditions;
