@@ -30,15 +30,11 @@ $list"
 }
 
 none "no licence line at the top" < <(
-  while read -r file; do
-    head -n 3 "$file" | grep -q 'SPDX-License-Identifier: GPL-2.0-or-later' || echo "  $file"
-  done < "$scratch/commented")
+  xargs awk 'FNR <= 3 && /SPDX-License-Identifier: GPL-2\.0-or-later/ { print FILENAME }' \
+    < "$scratch/commented" | sort -u | comm -13 - <(sort "$scratch/commented"))
 
 none "longer than 800 lines" < <(
-  while read -r file; do
-    lines=$(wc -l < "$file")
-    [ "$lines" -le 800 ] || echo "  $file: $lines"
-  done < "$scratch/files")
+  xargs wc -l < "$scratch/files" | awk '$1 > 800 && $2 != "total" { print $2 ": " $1 }')
 
 # Built from pieces, so that this file does not find itself.
 places="(^|[\"' =(])/(work|root|home|tmp)/"
