@@ -79,6 +79,8 @@ expect_stop "the engine has no" "style_bond.h" "run tools/setup again"
 lmp=$build_dir/bin/lmp_bondlab
 if [ -x "$lmp" ]; then
   export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+  # As bondlab starts it: no daemon beside the run, no search for network devices.
+  export OMPI_MCA_ess_singleton_isolated=1 OMPI_MCA_pml=ob1 OMPI_MCA_btl=self
   cd "$scratch" || exit 1
   # `clear` gives the engine new, empty maps: our fixes must be known again after it.
   cat > in.styles << 'EOF'
