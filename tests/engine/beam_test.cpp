@@ -197,7 +197,7 @@ TEST(BeamEngine, mistakes_are_named) {
   };
   for (const auto &c : cases) {
     EngineFolder folder;
-    const EngineResult r = run_deck(folder, beams(small(), c.words), 0, {}, 30.0);
+    const EngineResult r = run_deck(folder, beams(small(), c.words), 1, {}, 30.0);
     EXPECT_FALSE(r.ok()) << c.words;
     EXPECT_TRUE(r.says(c.says)) << c.words << "\n" << r.screen.substr(r.screen.size() > 600 ? r.screen.size() - 600 : 0);
   }

@@ -35,7 +35,7 @@ TEST(BondInstall, gap_is_between_surfaces) {
     int bonds;
   } cases[] = {{"1e-6", 1}, {"9.9e-5", 1}, {"1.01e-4", 2}, {"3e-3", 3}};
   for (const auto &c : cases) {
-    const EngineResult r = run_deck(folder, row_of_three(folder, std::string("gap ") + c.gap).text(), 0);
+    const EngineResult r = run_deck(folder, row_of_three(folder, std::string("gap ") + c.gap).text());
     EXPECT_TRUE(r.ok()) << r.screen;
     EXPECT_EQ(bonds_installed(r), c.bonds) << c.gap;
   }
@@ -58,7 +58,7 @@ TEST(BondInstall, only_within_the_group_and_never_twice) {
   p.safety = 0.0;
   const EngineResult r = run_deck(folder, p.text() +
       "group left id 1 2\nbond_install left gap 2e-4\nbond_install all gap 2e-4\n"
-      "velocity all ramp vx -0.5 0.5 x 0 4.1e-3\nfix i all nve/bonded\ntimestep 1e-8\nrun 10\n" + dump_all("end.txt"), 0);
+      "velocity all ramp vx -0.5 0.5 x 0 4.1e-3\nfix i all nve/bonded\ntimestep 1e-8\nrun 10\n" + dump_all("end.txt"));
   ASSERT_TRUE(r.ok()) << r.screen;
   EXPECT_EQ(bonds_installed(r), 1);  // the first command's report
   // bond force of each pair: E A/l u, once
@@ -95,7 +95,7 @@ TEST(Break, contact_force_is_the_same_before_and_after) {
       "variable f equal fx[2]\nvariable x equal x[2]\nvariable g equal fy[2]\nvariable y equal y[2]\n"
       "variable b equal f_log[1]\n"
       "fix curve all curve 1 curve.tsv fx N v_f fy N v_g x m v_x y m v_y b 1 v_b\n"
-      "run 3000\n", 0);
+      "run 3000\n");
   ASSERT_TRUE(r.ok()) << r.screen.substr(r.screen.size() - 600);
   const Table t = read_table(folder.file("curve.tsv"));
   const std::vector<double> b = t.column("b"), fx = t.column("fx"), fy = t.column("fy"), x = t.column("x"), y = t.column("y");
@@ -139,7 +139,7 @@ TEST_P(WrongDeck, is_told_so) {
   put("$COEFF", "$HEAD\nread_data grains.data\nneighbor 1e-4 bin\npair_coeff * * 5e9 2 0.5\nbond_coeff 1 5e9 2 1e7 1e7");
   put("$HEAD", "$START\nbond_style parallel\npair_style grain");
   put("$START", "units si\ndimension 3\nnewton off\nboundary f f f\natom_style bonded/sphere\ncommunicate single vel yes");
-  const EngineResult r = run_deck(folder, deck + "\n", 0, {}, 20.0);
+  const EngineResult r = run_deck(folder, deck + "\n", 1, {}, 20.0);
   EXPECT_FALSE(r.ok());
   EXPECT_FALSE(r.timed_out);
   EXPECT_TRUE(r.says(GetParam().message)) << r.screen;
@@ -225,7 +225,7 @@ TEST(DataFile, wrong_particle_lines) {
     Preamble p;
     p.specimen = "grains.data";
     p.safety = 0.0;
-    const EngineResult r = run_deck(folder, p.text(), 0, {}, 20.0);
+    const EngineResult r = run_deck(folder, p.text(), 1, {}, 20.0);
     EXPECT_FALSE(r.ok());
     EXPECT_TRUE(r.says(c.message)) << r.screen;
   }

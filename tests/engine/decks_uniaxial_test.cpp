@@ -122,7 +122,7 @@ TEST(UniaxialDeck, a_leaning_specimen_has_level_ends_and_is_weaker) {
 
 TEST(UniaxialDeck, lean_and_confinement_together_are_refused) {
   EngineFolder folder;
-  const auto run = engine::run_deck(folder, deck("uniaxial_compression"), 0,
+  const auto run = engine::run_deck(folder, deck("uniaxial_compression"), 1,
                                     with_specimen("rectangle_small_2d.data") +
                                         var({{"tilt", "2"}, {"confining_pressure", "1e6"}}));
   EXPECT_FALSE(run.ok());

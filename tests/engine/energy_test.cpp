@@ -46,7 +46,7 @@ Balance press(const std::string &bond, double safety, double speed, double time,
        << "variable n equal ceil(" << time << "/dt/" << pieces << ")\n";
   for (int k = 0; k < pieces; ++k) deck << "run $n\n";
   EngineFolder folder;
-  const EngineResult r = run_deck(folder, deck.str(), 0, {}, 120.0);
+  const EngineResult r = run_deck(folder, deck.str(), 1, {}, 120.0);
   EXPECT_TRUE(r.ok()) << r.screen.substr(r.screen.size() > 1000 ? r.screen.size() - 1000 : 0);
   const Table t = read_table(folder.file("curve.tsv"));
   std::map<std::string, std::vector<double>> c;

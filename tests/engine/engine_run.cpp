@@ -4,9 +4,11 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -50,7 +52,24 @@ bool EngineFolder::has(const std::string &name) const { return fs::exists(path_ 
 
 namespace {
 
-[[noreturn]] void start(const EngineFolder &folder, const std::vector<std::string> &command) {
+// Held during a run: alone by one of several ranks, shared by those of one. The lock is on the
+// program itself and goes with the process, however that ends.
+class Turn {
+ public:
+  explicit Turn(bool alone) : file_(open(BONDLAB_LMP, O_RDONLY | O_CLOEXEC)) {
+    while (flock(file_, alone ? LOCK_EX : LOCK_SH) != 0 && errno == EINTR) {
+    }
+  }
+  ~Turn() { close(file_); }
+  Turn(const Turn &) = delete;
+  Turn &operator=(const Turn &) = delete;
+
+ private:
+  int file_;
+};
+
+[[noreturn]] void start(const EngineFolder &folder, const std::vector<std::string> &command,
+                        bool by_mpirun) {
   setpgid(0, 0);
   if (chdir(folder.path().c_str()) != 0) _exit(127);
   const int in = open("/dev/null", O_RDONLY);
@@ -64,6 +83,12 @@ namespace {
     setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
   }
   setenv("OMP_NUM_THREADS", "1", 1);
+  if (!by_mpirun) {  // the same four words as in optimizer/forward/run_folder.cpp, and why
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 1);
+    setenv("OMPI_MCA_orte_tmpdir_base", folder.path().c_str(), 1);
+    setenv("OMPI_MCA_pml", "ob1", 1);
+    setenv("OMPI_MCA_btl", "self", 1);
+  }
   std::vector<char *> argv;
   for (const std::string &word : command) argv.push_back(const_cast<char *>(word.c_str()));
   argv.push_back(nullptr);
@@ -96,17 +121,19 @@ int wait_for(pid_t child, double limit, bool &timed_out) {
 EngineResult run_deck(const EngineFolder &folder, const std::string &deck, int ranks,
                       const std::vector<std::string> &arguments, double limit) {
   folder.write("in.deck", deck);
+  const bool by_mpirun = ranks != 1;
   std::vector<std::string> command;
-  if (ranks > 0)
+  if (by_mpirun)
     command = {BONDLAB_MPIRUN,    "-np",       std::to_string(ranks),
                "--oversubscribe", "--bind-to", "none"};
   for (const char *word : {BONDLAB_LMP, "-in", "in.deck", "-log", "log.bondlab"})
     command.push_back(word);
   command.insert(command.end(), arguments.begin(), arguments.end());
   EngineResult result;
+  const Turn turn(by_mpirun);
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("fork failed");
-  if (child == 0) start(folder, command);
+  if (child == 0) start(folder, command, by_mpirun);
   setpgid(child, child);  // also here: whichever of the two comes first
   result.status = wait_for(child, limit, result.timed_out);
   result.screen = folder.read("screen.txt");

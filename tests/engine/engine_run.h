@@ -3,11 +3,16 @@
 // Job: run a deck given as text with lmp_bondlab on some ranks in a folder of its own, with a time
 // limit, and give back what a test wants to look at.
 //
-// Method: `mpirun -np K lmp_bondlab -in in.deck -log log.bondlab` in its own process group,
-// standard
-//   input closed, output to screen.txt; after the limit the group is ended. The folder is removed
-//   with the EngineFolder, unless the test has failed: then its place is printed.
+// Method: `lmp_bondlab -in in.deck -log log.bondlab` in its own process group, standard input
+// closed,
+//   output to screen.txt; after the limit the group is ended. One rank is started as bondlab does
+//   it, without mpirun; several by `mpirun -np K`. Ranks wait for one another at every exchange,
+//   and on two cores a run beside them makes each of these waits a time slice. So a run of several
+//   ranks waits until it is the only one, runs of one rank go side by side; the limit counts from
+//   the start. The folder is removed with the EngineFolder, unless the test has failed: then its
+//   place is printed.
 // Units: the limit in s. Failure: a run that can't be started gives exit status 127.
+// Limits: runs of other test programs don't wait; ctest keeps those of whole studies apart.
 #ifndef BONDLAB_TESTS_ENGINE_RUN_H
 #define BONDLAB_TESTS_ENGINE_RUN_H
 
@@ -42,8 +47,7 @@ struct EngineResult {
   bool says(const std::string &text) const { return screen.find(text) != std::string::npos; }
 };
 
-// ranks = 0: one process without mpirun, which starts and fails faster. `arguments` are added to
-// the command line, for instance {"-var", "E", "1e9"}.
+// `arguments` are added to the command line, for instance {"-var", "E", "1e9"}.
 EngineResult run_deck(const EngineFolder &folder, const std::string &deck, int ranks = 1,
                       const std::vector<std::string> &arguments = {}, double limit = 180.0);
 

@@ -24,8 +24,7 @@ TEST_P(WrongArguments, AreExplained) {
   folder.write("particles.data", data_file({{0, 0, 0}, {0, 0.005, 0}}, w.dimension, 0.02));
   const EngineResult r = run_deck(
       folder,
-      few_particles(w.dimension, 1e-8) + "variable one equal 1\nfix f all " + w.fix + "\nrun 1\n",
-      0);
+      few_particles(w.dimension, 1e-8) + "variable one equal 1\nfix f all " + w.fix + "\nrun 1\n");
   EXPECT_NE(r.status, 0) << w.fix;
   EXPECT_FALSE(r.timed_out);
   const std::string style = std::string(w.fix).substr(0, std::string(w.fix).find(' '));
@@ -132,8 +131,7 @@ TEST(WrongOrder, ACurveMustComeAfterThePlatensItReads) {
       run_deck(folder,
                few_particles(3, 1e-8) +
                    "variable one equal 1\nfix c all curve 10 c.tsv a 1 v_one\n"
-                   "fix p all platen plane 0 -0.005 0 0 1 0 modulus 1e9\nrun 1\n",
-               0);
+                   "fix p all platen plane 0 -0.005 0 0 1 0 modulus 1e9\nrun 1\n");
   EXPECT_NE(r.status, 0);
   EXPECT_TRUE(r.says("Fix curve (id c): must come after fix platen (id p)")) << r.screen;
 }

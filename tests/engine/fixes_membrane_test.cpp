@@ -63,7 +63,7 @@ TEST(FixMembrane, PushesACylinderInwardsWithoutNetForce) {
 TEST(FixMembrane, WrongArgumentsAreExplained) {
   EngineFolder folder;
   const EngineResult r =
-      run_deck(folder, forces(2, "rectangle_small_2d.data", "z 2e6 reach 1e-4"), 0);
+      run_deck(folder, forces(2, "rectangle_small_2d.data", "z 2e6 reach 1e-4"));
   EXPECT_NE(r.status, 0);
   EXPECT_TRUE(r.says("the axis of the specimen is 'z', allowed are x|y")) << r.screen;
 }

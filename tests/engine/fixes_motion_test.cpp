@@ -71,7 +71,7 @@ TEST(FixMotion, AFrameThatTheTimeStepCannotFollowIsAnError) {
   EngineFolder folder;
   folder.write("particles.data", data_file({{0, 0, 0}}, 3, 0.01));
   const EngineResult r = run_deck(
-      folder, few_particles(3, 2e-7) + above("velocity 0 -1 0 frame 1e9 mass 1e-6") + "run 1\n", 0);
+      folder, few_particles(3, 2e-7) + above("velocity 0 -1 0 frame 1e9 mass 1e-6") + "run 1\n");
   EXPECT_NE(r.status, 0);
   EXPECT_TRUE(r.says("give a larger mass")) << r.screen;
 }

@@ -27,7 +27,7 @@ double force_at_rest(const std::string &coefficients, int dimension) {
   const EngineResult r = run_deck(folder,
       "units si\ndimension " + std::to_string(dimension) + "\nnewton off\nboundary f f " + (dimension == 2 ? "p" : "f") +
       "\natom_style bonded/sphere" + style + "\ncommunicate single vel yes\npair_style grain\nread_data grains.data\n"
-      "neighbor 1e-4 bin\n" + coefficients + "fix i all nve/bonded\ntimestep 1e-9\nrun 0\n" + dump_all("end.txt"), 0);
+      "neighbor 1e-4 bin\n" + coefficients + "fix i all nve/bonded\ntimestep 1e-9\nrun 0\n" + dump_all("end.txt"));
   EXPECT_TRUE(r.ok()) << r.screen;
   return read_dump(folder, "end.txt").at(2)[9];
 }
@@ -54,7 +54,7 @@ TEST(Grain, bonded_packing_is_stress_free) {
   p.specimen = "grains.data";
   p.install = "gap 3e-4";
   folder.write("grains.data", data_file({{0, 0, 0}, {1.9e-3, 0, 0}, {4e-3, 0, 0}, {4e-3, 1.95e-3, 0}, {2e-3, 2.1e-3, 1e-4}}, 3, 0.02));
-  const EngineResult r = run_deck(folder, p.text() + "fix i all nve/bonded\nrun 500\n" + dump_all("end.txt"), 0);
+  const EngineResult r = run_deck(folder, p.text() + "fix i all nve/bonded\nrun 500\n" + dump_all("end.txt"));
   ASSERT_TRUE(r.ok()) << r.screen;
   EXPECT_EQ(bonds_installed(r), 5);
   // rounding of the distance (4e-19 m) times the stiffness (1e7 N/m), once in motion a little more
@@ -77,7 +77,7 @@ TEST(Grain, reference_is_the_touching_distance_once_the_pair_has_parted) {
     const EngineResult r = run_deck(folder, p.text() +
         "group second id 2\nvelocity second set 1 0 0\nfix i second nve/bonded\ntimestep 1e-8\nrun 10000\n"
         "velocity second set -1 0 0\nvariable x equal x[2]\nvariable f equal fx[2]\n"
-        "fix curve all curve 1 curve.tsv x m v_x f N v_f\nrun 25000\n", 0);
+        "fix curve all curve 1 curve.tsv x m v_x f N v_f\nrun 25000\n");
     ASSERT_TRUE(r.ok()) << r.screen;
     const Table t = read_table(folder.file("curve.tsv"));
     const std::vector<double> x = t.column("x"), f = t.column("f");
@@ -114,7 +114,7 @@ TEST(Grain, history_of_a_broken_pair_survives_rebuilds) {
     p.safety = 0.0;
     const EngineResult r = run_deck(folder, p.text() +
         "group second id 2\nvelocity second set 0.5 0 0\nfix i second nve/bonded\ntimestep 1e-8\nrun 400\n"
-        "velocity second set -0.5 0.3 0.1\nrun 480\n" + dump_all("end.txt"), 0);
+        "velocity second set -0.5 0.3 0.1\nrun 480\n" + dump_all("end.txt"));
     ASSERT_TRUE(r.ok()) << r.screen;
     const auto rows = read_dump(folder, "end.txt");
     EXPECT_GT(std::fabs(rows.at(2)[10]), 0.1);  // a shear force is held

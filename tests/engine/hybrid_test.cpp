@@ -52,7 +52,7 @@ std::string deck(const EngineFolder &folder, bool hybrid, const std::string &opt
 
 void compare(const std::string &options) {
   EngineFolder plain, hybrid, two;
-  const EngineResult a = run_deck(plain, deck(plain, false, options), 0), b = run_deck(hybrid, deck(hybrid, true, options), 0),
+  const EngineResult a = run_deck(plain, deck(plain, false, options)), b = run_deck(hybrid, deck(hybrid, true, options)),
                      c = run_deck(two, deck(two, true, options), 2);
   for (const EngineResult *r : {&a, &b, &c}) ASSERT_TRUE(r->ok()) << r->screen.substr(0, 3000);
   const std::size_t broken = read_table(plain.file("broken.tsv")).rows.size();

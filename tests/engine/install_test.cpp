@@ -129,7 +129,7 @@ TEST(BondInstall, names_what_it_does_not_understand) {
     EngineFolder folder;
     Preamble p = small();
     p.install += std::string(" ") + words;
-    const EngineResult r = run_deck(folder, p.text(), 0);
+    const EngineResult r = run_deck(folder, p.text());
     EXPECT_FALSE(r.ok()) << words;
     EXPECT_TRUE(r.says(says)) << words << ": " << r.screen.substr(r.screen.size() > 300 ? r.screen.size() - 300 : 0);
   }
@@ -159,7 +159,7 @@ TEST_P(WriteData, keeps_the_bonds_that_are_left) {
   EngineFolder refused;
   p.install = "";
   p.safety = 0.0;
-  const EngineResult t = run_deck(refused, p.text() + "fix integrate all nve/bonded\nrun 0\n", 0);
+  const EngineResult t = run_deck(refused, p.text() + "fix integrate all nve/bonded\nrun 0\n");
   EXPECT_FALSE(t.ok());
   EXPECT_TRUE(t.says("use `bond_install GROUP data`"));
 }

@@ -40,7 +40,7 @@ std::string pair_data() {
 double stress_after(const std::string &deck, double E = 1e9) {
   EngineFolder folder;
   folder.write("pair.data", pair_data());
-  const EngineResult r = run_deck(folder, deck + kPull, 0, {}, 60.0);
+  const EngineResult r = run_deck(folder, deck + kPull, 1, {}, 60.0);
   EXPECT_TRUE(r.ok()) << r.screen.substr(r.screen.size() > 1500 ? r.screen.size() - 1500 : 0);
   if (!r.ok()) return 0.0;
   const double energy = read_table(folder.file("curve.tsv")).last("elastic");
@@ -194,7 +194,7 @@ TEST(NortonEngine, wrong_words_are_named) {
   for (const auto &c : cases) {
     EngineFolder folder;
     folder.write("pair.data", pair_data());
-    const EngineResult r = run_deck(folder, held_pair(c.words) + "run 1\n", 0, {}, 30.0);
+    const EngineResult r = run_deck(folder, held_pair(c.words) + "run 1\n", 1, {}, 30.0);
     EXPECT_FALSE(r.ok()) << c.words;
     EXPECT_TRUE(r.says(c.says)) << c.words << "\n" << r.screen;
   }

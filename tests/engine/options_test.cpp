@@ -91,7 +91,7 @@ struct Pull {
       deck << "velocity second set " << (x - at) / (steps * 1e-9) << " 0 0\nrun " << steps << "\n";
       at = x;
     }
-    const EngineResult r = run_deck(folder, deck.str(), 0);
+    const EngineResult r = run_deck(folder, deck.str());
     EXPECT_TRUE(r.ok()) << r.screen.substr(r.screen.size() > 1000 ? r.screen.size() - 1000 : 0);
     return read_table(folder.file("curve.tsv"));
   }

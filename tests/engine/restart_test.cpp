@@ -115,7 +115,7 @@ TEST(Restart, truncated_file_is_an_error) {
   run(one, start(false) + "write_restart state\n", 1);
   const std::string bytes = one.read("state");
   other.write("state", bytes.substr(0, bytes.size() / 3));
-  const EngineResult r = run_deck(other, again("state") + "fix integrate all nve/bonded\nrun 1\n", 0, {}, 30.0);
+  const EngineResult r = run_deck(other, again("state") + "fix integrate all nve/bonded\nrun 1\n", 1, {}, 30.0);
   EXPECT_FALSE(r.ok());
   EXPECT_FALSE(r.timed_out);
 }

@@ -92,7 +92,7 @@ TEST(TimeStepOfPacking, is_stable_below_the_limit_and_not_above) {
         "variable step equal " + std::to_string(safety) + "*dt\nvariable fixed equal ${step}\ntimestep ${fixed}\n"
         "velocity all ramp vz -0.1 0.1 z 0 0.012\nfix integrate all nve/bonded\n"
         "compute energy all energy/bonded\nvariable e equal c_energy[1]+c_energy[2]+c_energy[3]+c_energy[4]\n"
-        "fix curve all curve 100 curve.tsv e J v_e\nrun 4000\n", 0);
+        "fix curve all curve 100 curve.tsv e J v_e\nrun 4000\n");
     const std::vector<double> e = read_table(folder.file("curve.tsv")).column("e");
     ASSERT_GT(e.front(), 0.0);
     const auto [least, most] = std::minmax_element(e.begin(), e.end());

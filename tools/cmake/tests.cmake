@@ -3,8 +3,9 @@
 # The test programs and how ctest runs them. Included by CMakeLists.txt.
 #
 # Labels: physics (laws, engine-free), unit (optimiser and tools), engine (start lmp_bondlab),
-# study (whole studies), papers (published tables, reduced). Tests that start MPI or several runs hold both cores, so that no two of
-# them compete: a time limit then means the same on every machine.
+# study (whole studies), papers (published tables, reduced). Studies start several runs, as many as
+# there are cores: nothing goes beside them. Engine tests go side by side; those of several ranks
+# see to it themselves that no other of them runs meanwhile (tests/engine/engine_run.h).
 
 file(GLOB law_tests CONFIGURE_DEPENDS bond_styles/laws/*_test.cpp fix_styles/*_test.cpp)
 file(GLOB_RECURSE unit_tests CONFIGURE_DEPENDS optimizer/*_test.cpp)
@@ -51,7 +52,7 @@ if(unit_tests AND TARGET bondlab_core)
 endif()
 
 if(engine_tests AND have_engine)
-  add_tests(NAME engine_tests LABEL engine TIMEOUT 600 SERIAL SOURCES ${engine_tests}
+  add_tests(NAME engine_tests LABEL engine TIMEOUT 600 SOURCES ${engine_tests}
     LIBRARIES bondlab_laws)
   target_include_directories(engine_tests PRIVATE ${PROJECT_SOURCE_DIR}
     ${PROJECT_SOURCE_DIR}/bond_styles ${PROJECT_SOURCE_DIR}/fix_styles
@@ -79,7 +80,7 @@ foreach(script ${tool_tests})
     # The README's commands run studies.
     set_tests_properties(tools.${name} PROPERTIES LABELS study TIMEOUT 1200 RUN_SERIAL TRUE)
   elseif(name STREQUAL "bench_test")
-    set_tests_properties(tools.${name} PROPERTIES LABELS engine TIMEOUT 300 RUN_SERIAL TRUE)
+    set_tests_properties(tools.${name} PROPERTIES LABELS engine TIMEOUT 300)
   else()
     set_tests_properties(tools.${name} PROPERTIES LABELS unit TIMEOUT 300)
   endif()
