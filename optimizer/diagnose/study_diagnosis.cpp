@@ -31,6 +31,7 @@ constexpr int null_draws = 2000, most_moves = 5;
 constexpr std::size_t least_for_holdout = 5;
 constexpr int most_rounds = 3;
 constexpr double contender = 40;  // behind the best in deviance
+constexpr std::size_t most_contenders = 3;
 constexpr double alarm_rate = 0.01, table_size = 10;
 constexpr double interval_95 = 1.959964;
 
@@ -139,11 +140,15 @@ void settle(StudyModel &model, const std::vector<MeasuredSeries> &all, const std
   }
 }
 
-// Effects among the contenders whose size lies beyond what the emulator was made from, with the
-// switch-on size that puts it between the two sizes run.
+// Effects of the few best explanations whose size lies beyond what the emulator was made from, with
+// the switch-on size that puts it between the two sizes run.
 std::map<std::size_t, double> beyond_what_was_run(StudyModel &model, const Diagnosis &d) {
   std::map<std::size_t, double> out;
-  for (const auto &tried : d.tried) {
+  auto best = d.tried;
+  std::stable_sort(best.begin(), best.end(),
+                   [](const Tried &a, const Tried &b) { return a.behind < b.behind; });
+  if (best.size() > most_contenders) best.resize(most_contenders);
+  for (const auto &tried : best) {
     if (tried.behind > contender) continue;
     for (std::size_t i = 0; i < tried.effects.size(); ++i) {
       const auto k = tried.effects[i];
@@ -237,11 +242,20 @@ StudyDiagnosis diagnose_measured(StudyModel &model, std::vector<MeasuredSeries> 
                     whitening.undo(fitted.jacobian), whitening.undo(fitted.traces)}),
         alarm_rate, null_draws, options.seed);
     omnibus_alarm = null.omnibus_alarm;
-    DiagnoseOptions how;
-    how.seed = options.seed;
-    out.diagnosis = diagnose(prober, evidence, {out.catalogue, names, null}, at, how);
+    const auto diagnosed = [&](std::size_t checked, std::size_t checked_pairs) {
+      DiagnoseOptions how;
+      how.seed = options.seed;
+      how.checked = checked, how.checked_pairs = checked_pairs;
+      return diagnose(prober, evidence, {out.catalogue, names, null}, at, how);
+    };
+    // The engine is run at fits only when all sizes asked for have been.
+    out.diagnosis = diagnosed(0, 0);
     const auto further = beyond_what_was_run(model, out.diagnosis);
-    if (further.empty() || round == most_rounds) break;
+    if (further.empty() || round == most_rounds) {
+      const DiagnoseOptions checks;
+      out.diagnosis = diagnosed(checks.checked, checks.checked_pairs);
+      break;
+    }
     for (const auto &[effect, size] : further)
       say(fmt::format("{} is asked for at a size beyond those run: run at {}",
                       out.catalogue[effect].name,
