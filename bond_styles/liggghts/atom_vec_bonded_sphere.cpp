@@ -121,6 +121,10 @@ void AtomVecBondedSphere::init() {
     const char *args[] = {"bonded_sphere_index", "all", "bonded/index"};
     modify->add_fix(3, const_cast<char **>(args));
   }
+  if (modify->find_fix("bonded_sphere_box") < 0) {
+    const char *args[] = {"bonded_sphere_box", "all", "bonded/box"};
+    modify->add_fix(3, const_cast<char **>(args));
+  }
   // a particle with more bonds than the engine's own reserve must still fit its send buffer
   const int record = 40 + bonds.longest_slot() * (2 + bonds.columns()) +
                      contacts.longest_slot() * (2 + contacts.columns());
