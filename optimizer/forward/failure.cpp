@@ -102,6 +102,7 @@ FailureCause cause_of(const std::string &words) {
     return FailureCause::lost_atoms;
   if (contains(words, "Bond atom") && contains(words, "missing"))
     return FailureCause::bond_atoms_missing;
+  if (contains(words, "has flown to")) return FailureCause::runaway_atoms;
   if (says_not_a_number(words)) return FailureCause::not_a_number;
   return FailureCause::deck_error;
 }
@@ -109,10 +110,16 @@ FailureCause cause_of(const std::string &words) {
 std::string advice_for(FailureCause cause) {
   switch (cause) {
     case FailureCause::lost_atoms:
-      return "; particles flew away: try a smaller `safety` (time step) or stiffer bounds";
+      return "; particles left a box that doesn't grow (the deck's `boundary`), or the specimen "
+             "blew up: try a "
+             "smaller `safety` (time step)";
     case FailureCause::bond_atoms_missing:
       return "; a bond is longer than the ghost shell: the specimen came apart or the time step is "
              "too large";
+    case FailureCause::runaway_atoms:
+      return "; no specimen that breaks throws grains so far: try a smaller `safety` (time step) "
+             "or "
+             "look at what the deck was given";
     case FailureCause::not_a_number:
       return "; the integration diverged: try a smaller `safety` (time step)";
     default:

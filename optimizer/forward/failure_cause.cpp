@@ -14,6 +14,7 @@ static constexpr std::pair<FailureCause, const char *> kNames[] = {
     {FailureCause::engine_crash, "engine_crash"},
     {FailureCause::lost_atoms, "lost_atoms"},
     {FailureCause::bond_atoms_missing, "bond_atoms_missing"},
+    {FailureCause::runaway_atoms, "runaway_atoms"},
     {FailureCause::not_a_number, "not_a_number"},
     {FailureCause::timeout, "timeout"},
     {FailureCause::no_progress, "no_progress"},

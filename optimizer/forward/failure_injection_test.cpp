@@ -66,6 +66,8 @@ INSTANTIATE_TEST_SUITE_P(
                   "Lost atoms: original 100 current 99; "},
         Injection{"bond_atoms_missing", 10, FailureCause::bond_atoms_missing,
                   "Bond atoms 3 4 missing at step 7; "},
+        Injection{"runaway_atoms", 18, FailureCause::runaway_atoms,
+                  "atom 5 has flown to 0 9 0 m; no specimen that breaks"},
         Injection{"error_then_hang", 11, FailureCause::lost_atoms, "(then it hung and was ended)"},
         Injection{"malformed", 13, FailureCause::bad_output,
                   "curve.tsv:4:5: 'abc' in column 'axial_stress' isn't a number"},

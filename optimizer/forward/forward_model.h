@@ -36,6 +36,7 @@ enum class FailureCause {
   engine_crash,
   lost_atoms,
   bond_atoms_missing,
+  runaway_atoms,
   not_a_number,
   timeout,
   no_progress,

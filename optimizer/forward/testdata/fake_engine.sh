@@ -37,5 +37,6 @@ case $act in
   15) sleep 100 & sleep 100 ;;
   16) printf 'mpirun was unable to launch the specified application\n'; exit 134 ;;
   17) env | grep BONDLAB_ >kept.txt; good ;;
+  18) head; echo 'ERROR on proc 0: atom 5 has flown to 0 9 0 m (src/x.cpp:1)'; exit 1 ;;
   *) value=$act; good ;;
 esac
