@@ -29,12 +29,10 @@ class AdditiveModel : public Prober {
   }
   std::unique_ptr<Prober> anchored(const ModelPoint &point) override {
     if (!may_anchor_) return nullptr;
-    ++anchors;
     auto out = std::make_unique<AdditiveModel>(exact_, centre_, true);
     out->shift_ = exact_.probe({point}).front() - added(point);
     return out;
   }
-  int anchors = 0;
 
  private:
   Eigen::VectorXd added(const ModelPoint &point) {

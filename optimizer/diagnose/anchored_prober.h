@@ -8,8 +8,8 @@
 // Why: changes along different coordinates add in the emulator. Two effects of twenty noise units
 //   that change each other by a fifth leave four units, which no name explains.
 // Source: a multi-point correction of a response surface, Haftka, AIAA J. 29 (1991) 1523.
-// Units: as EmulatedProber. Failure: none here. Limits: away from the anchor as far off as the
-// emulator.
+// Units: as EmulatedProber. Failure: none here.
+// Limits: away from the anchor as far off as the emulator.
 #pragma once
 
 #include <vector>

@@ -13,11 +13,8 @@
 namespace bondlab::diagnose {
 namespace {
 
-class Anchored : public StraightModelTest {
+class Anchored : public EmulatedModelTest {
  protected:
-  std::vector<EffectEntry> catalogue = catalogue_of(study, effects);
-  ForwardProber engine{study, effects, model, series, {0, 1, 2, 3, 4, 5, 6, 7}};
-  EmulatorPlan plan{8, 6, 0.12};
   // Two and a half times the sizes that are run, where the logarithm of the peak has bent on.
   ModelPoint far() const { return with(engine.start(), "bond_gap", 5); }
   double engine_peak(const ModelPoint &at, double amplitude) const {

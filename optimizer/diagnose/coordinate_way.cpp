@@ -14,11 +14,6 @@ constexpr double bend_needed = 2.5;  // standard errors
 
 }  // namespace
 
-double variance_of(const Eigen::VectorXd &values) {
-  return (values.array() - values.mean()).square().sum() /
-         std::max<double>(1, static_cast<double>(values.size()) - 1);
-}
-
 Eigen::MatrixXd Way::at(double x) const {
   if (x < 0 && below.size() > 0) return below * x;
   const double inside = std::clamp(x, low, high), beyond = x - inside;
@@ -73,7 +68,7 @@ Way way_through(const std::vector<double> &knots, const std::vector<Eigen::Matri
         linear(p) = both(0), squared(p) = both(1);
       }
       const Eigen::VectorXd some = of_known(squared);
-      const double error = std::sqrt(variance_of(some) / static_cast<double>(some.size()));
+      const double error = std::sqrt(variances(some)(0) / static_cast<double>(some.size()));
       bends = std::abs(some.mean()) > bend_needed * error;
     }
     if (!bends) {
@@ -81,7 +76,7 @@ Way way_through(const std::vector<double> &knots, const std::vector<Eigen::Matri
       for (const auto p : known) linear(p) = straight.dot(values.col(p)) / straight.squaredNorm();
       const Eigen::VectorXd some = of_known(linear);
       const auto count_known = static_cast<double>(some.size());
-      const double error2 = widening(count_known) * variance_of(some) / count_known;
+      const double error2 = widening(count_known) * variances(some)(0) / count_known;
       const double mean2 = some.mean() * some.mean();
       if (mean2 > 0) out.noise(row) = some.mean() * std::min(1.0, error2 / mean2);
     }

@@ -30,6 +30,4 @@ struct Way {
 // `changes`: packings x rows at each of `knots` (x, not 0), from the centre.
 Way way_through(const std::vector<double> &knots, const std::vector<Eigen::MatrixXd> &changes);
 
-double variance_of(const Eigen::VectorXd &values);
-
 }  // namespace bondlab::diagnose

@@ -27,7 +27,6 @@ struct Explanation {
   Refit fit;
   std::optional<ModelPoint> anchor;  // where the model was made right for it
   double left = 0;                   // largest score of what is left, over what chance leaves
-  bool significant = false;          // each member is needed
   bool complete = false;             // nothing is left
   std::vector<Spot> remains;
 };

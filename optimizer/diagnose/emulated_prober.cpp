@@ -113,8 +113,7 @@ EmulatedProber::EmulatedProber(ForwardProber &engine, const std::vector<EffectEn
   // The centre first: what all the rest is compared with.
   rows_ = engine.by_packing(centre, first(plan.centre));
   mean_ = rows_.colwise().mean();
-  scatter_.resize(rows_.cols());
-  for (Eigen::Index row = 0; row < rows_.cols(); ++row) scatter_(row) = variance_of(rows_.col(row));
+  scatter_ = variances(rows_);
   engine.prepare(points, packings_);
   engine.prepare(effect_points, effect_packings_);
   const auto take = [&](const std::vector<ModelPoint> &list, const std::vector<int> &packings,
@@ -314,10 +313,11 @@ double EmulatedProber::trace_noise(std::size_t effect) const {
   const Way &way = effects_[effect];
   if (way.dead) return std::numeric_limits<double>::infinity();
   const Eigen::MatrixXd changes = way.at(1);
+  const Eigen::VectorXd scatter = variances(changes);
   double noise = 0, signal = 0;
   for (Eigen::Index row = 0; row < changes.cols(); ++row) {
     if (way.unknown(row) || !(scatter_(row) > 0)) continue;
-    noise += variance_of(changes.col(row)) / static_cast<double>(changes.rows()) / scatter_(row);
+    noise += scatter(row) / static_cast<double>(changes.rows()) / scatter_(row);
     signal += changes.col(row).mean() * changes.col(row).mean() / scatter_(row);
   }
   return signal > 0 ? std::sqrt(noise / signal) : std::numeric_limits<double>::infinity();

@@ -11,11 +11,8 @@
 namespace bondlab::diagnose {
 namespace {
 
-class Emulated : public StraightModelTest {
+class Emulated : public EmulatedModelTest {
  protected:
-  std::vector<EffectEntry> catalogue = catalogue_of(study, effects);
-  ForwardProber engine{study, effects, model, series, {0, 1, 2, 3, 4, 5, 6, 7}};
-  EmulatorPlan plan{8, 6, 0.12};
   // The centre with a parameter's physical value times a factor.
   ModelPoint scaled(std::size_t parameter, double factor) const {
     ModelPoint out = engine.start();

@@ -6,8 +6,7 @@
 //   the study's start; effects are taken at sizes that rise above the noise of the plan. A case's
 //   sizes follow from its noise units (sizing.h), counted in what the laboratory's own specimens
 //   scatter where nothing is hidden; an effect whose largest size gives less is hidden at that size
-//   and the units it has are told. Data are made by
-//   hide_effect() and read back from their folder; for the diagnosis the outsiders' admissible size
+//   and the units it has are told. Data are made by hide_effect() and read back from their folder; for the diagnosis the outsiders' admissible size
 //   is zero, and that of an effect left out of the catalogue. What a case costs anew is its data,
 //   effects beyond the sizes run, and the engine at the fits before and after.
 // Judged: `right`: the one name hidden (of a pair: both, and no other); `in_set`: offered with

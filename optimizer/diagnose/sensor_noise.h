@@ -4,9 +4,9 @@
 // Method: what a sensor adds from point to point shows in the second differences of a column: their
 //   median over 0.6745 sqrt(6) is its sd, whatever breaks in between. It is taken for noise only
 //   where neighbouring second differences go against each other as those of white noise do
-//   (correlation -2/3; a drift has -1/2; here below -0.55), because those of a smooth curve are all alike. The noise
-//   is then added to the curve anew, and the scatter of the rows over such draws is what it makes
-//   of them.
+//   (correlation -2/3; a drift has -1/2; here below -0.55), because those of a smooth curve are all
+//   alike. The noise is then added to the curve anew, and the scatter of the rows over such draws
+//   is what it makes of them.
 // Why: a row that packings hardly scatter in has its noise from the sensor alone, and a handful of
 //   specimens agree by luck now and then; hundreds of points do not.
 // Source: Gasser, Sroka & Jennen-Steinmetz, Biometrika 73 (1986) 625 (variance from differences).

@@ -3,8 +3,8 @@
 // Job: the size at which an effect reaches a wanted number of noise units, so that it can be hidden.
 // Method: noise units are the norm of the mean change of the rows, whitened by what the laboratory's
 //   specimens scatter (packings, sensors and the rest, from data with nothing hidden), off what the
-//   parameters can do, without what the noise of few packings adds. A first size comes
-//   from the emulator, taken at sizes near it. Then the engine is run at it: where its own units
+//   parameters can do, without what the noise of few packings adds. A first size comes from the
+//   emulator, taken at sizes near it. Then the engine is run at it: where its own units
 //   are more than a quarter off, the size is corrected along a power law through those that were
 //   run, and run again, four times at most; the one that comes nearest stands. So an effect with a
 //   threshold (a bond that yields at a stress it never sees) is not hidden where it does nothing.

@@ -11,7 +11,7 @@
 #include <filesystem>
 
 #include "base/random.h"
-#include "diagnose/forward_prober.h"
+#include "diagnose/emulated_prober.h"
 #include "forward/run_plan.h"
 
 namespace bondlab::diagnose {
@@ -104,6 +104,14 @@ class StraightModelTest : public ::testing::Test {
   StraightModel model;
   std::vector<ProbedSeries> series;
   double gap = 0;
+};
+
+// With what an emulator of it is made from: eight packings, effects on six of them.
+class EmulatedModelTest : public StraightModelTest {
+ protected:
+  std::vector<EffectEntry> catalogue = catalogue_of(study, effects);
+  ForwardProber engine{study, effects, model, series, {0, 1, 2, 3, 4, 5, 6, 7}};
+  EmulatorPlan plan{8, 6, 0.12};
 };
 
 }  // namespace bondlab::diagnose

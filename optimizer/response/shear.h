@@ -7,8 +7,7 @@
 //   is the largest rise of the lid from where it stood when shearing began. Friction angle and
 //   cohesion follow from tests at three normal stresses or more (envelope.h).
 // Columns read: time, displacement (m), shear_stress, normal_stress (Pa), lift (m), force_top,
-// force_bottom (N),
-//   kinetic_energy, strain_energy (J).
+//   force_bottom (N), kinetic_energy, strain_energy (J).
 // Units: SI. Failure: ResponseError; test_not_finished when the stress never fell behind its peak.
 // Limits: a ductile test without a peak gives none of the strengths but strength_within_shear.
 #pragma once

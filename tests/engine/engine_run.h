@@ -3,8 +3,7 @@
 // Job: run a deck given as text with lmp_bondlab on some ranks in a folder of its own, with a time
 // limit, and give back what a test wants to look at.
 //
-// Method: `lmp_bondlab -in in.deck -log log.bondlab` in its own process group, standard input
-// closed,
+// Method: `lmp_bondlab -in in.deck -log log.bondlab` in its own process group, standard input closed,
 //   output to screen.txt; after the limit the group is ended. One rank is started as bondlab does
 //   it, without mpirun; several by `mpirun -np K`. Ranks wait for one another at every exchange,
 //   and on two cores a run beside them makes each of these waits a time slice. So a run of several
