@@ -270,6 +270,8 @@ bool Work::name_pair(const ScoreTable &scores, const std::vector<Explanation> &s
     }
   out_.margin = margin;
   out_.verdict = rivals.empty() ? Verdict::two : Verdict::set;
+  if (out_.verdict == Verdict::two)
+    for (auto &effect : out_.effects) effect.margin = margin;
   return true;
 }
 

@@ -56,6 +56,16 @@ TEST(Diagnose, NamedEffectComesWithSizeMarginAndAnEmptyRest) {
   EXPECT_NEAR(d.realised_gain, d.before.chi2 - d.after.chi2, 1e-9);
 }
 
+TEST(Diagnose, BothOfAPairHaveThePairsMargin) {
+  Bench bench(bench_series({}), 1);
+  const auto d =
+      bench.run({{rheology::norton_creep, rheology::frame_compliance}, 15, {}, 1}, 1).diagnosis;
+  ASSERT_EQ(d.verdict, Verdict::two);
+  ASSERT_EQ(d.effects.size(), 2u);
+  EXPECT_GT(d.margin, margin_needed);
+  for (const auto &effect : d.effects) EXPECT_EQ(effect.margin, d.margin);
+}
+
 TEST(Diagnose, NothingMissingSaysWhatWouldHaveBeenSeen) {
   Bench bench(bench_series({}), 1);
   const auto run = bench.run({{}, 0, {}, 1}, 3);

@@ -44,7 +44,9 @@ TEST(TensionDeck, breaks_in_tension_between_the_grips) {
   const auto top = t.column("force_top"), bottom = t.column("force_bottom"),
              count = t.column("broken_bonds");
   for (std::size_t k = 0; k < top.size() && count[k] == 0.0; ++k)
-    if (top[k] > 0.3 * peak * 0.025) EXPECT_NEAR(top[k] / bottom[k], 1.0, 0.03) << k;
+    if (top[k] > 0.3 * peak * 0.025) {
+      EXPECT_NEAR(top[k] / bottom[k], 1.0, 0.03) << k;
+    }
 }
 
 TEST(TensionDeck, bonds_alone_are_as_stiff_in_tension_as_in_compression) {
