@@ -24,6 +24,17 @@ Eigen::RowVectorXd Way::noise_at(double x) const {
   return (x < 0 && below.size() > 0 ? noise_below : noise) * x;
 }
 
+Eigen::MatrixXd with_means_where_lacking(Eigen::MatrixXd rows) {
+  for (Eigen::Index row = 0; row < rows.cols(); ++row) {
+    const auto known = rows.col(row).array().isFinite().eval();
+    const auto count = known.count();
+    if (count == rows.rows() || count < least_packings) continue;
+    const double mean = known.select(rows.col(row).array(), 0).sum() / static_cast<double>(count);
+    rows.col(row) = known.select(rows.col(row).array(), mean).matrix().eval();
+  }
+  return rows;
+}
+
 Way way_through(const std::vector<double> &knots, const std::vector<Eigen::MatrixXd> &changes) {
   Way out;
   out.low = std::min(0.0, *std::min_element(knots.begin(), knots.end()));

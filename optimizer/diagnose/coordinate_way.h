@@ -27,6 +27,10 @@ struct Way {
   Eigen::RowVectorXd noise_at(double x) const;
 };
 
+// Packings that lack a row (NaN) stand at the mean of the others there; a row that fewer than
+// least_packings have is left as it is.
+Eigen::MatrixXd with_means_where_lacking(Eigen::MatrixXd rows);
+
 // `changes`: packings x rows at each of `knots` (x, not 0), from the centre.
 Way way_through(const std::vector<double> &knots, const std::vector<Eigen::MatrixXd> &changes);
 

@@ -111,14 +111,15 @@ EmulatedProber::EmulatedProber(ForwardProber &engine, const std::vector<EffectEn
         effect_points.back().amplitude(static_cast<Eigen::Index>(k)) = knot;
       }
   // The centre first: what all the rest is compared with.
-  rows_ = engine.by_packing(centre, first(plan.centre));
+  as_run_ = engine.by_packing(centre, first(plan.centre));
+  rows_ = with_means_where_lacking(as_run_);
   mean_ = rows_.colwise().mean();
   scatter_ = variances(rows_);
   engine.prepare(points, packings_);
   engine.prepare(effect_points, effect_packings_);
   const auto take = [&](const std::vector<ModelPoint> &list, const std::vector<int> &packings,
                         std::size_t &at, std::size_t count) {
-    const Eigen::MatrixXd own = rows_.topRows(static_cast<Eigen::Index>(packings.size()));
+    const Eigen::MatrixXd own = as_run_.topRows(static_cast<Eigen::Index>(packings.size()));
     std::vector<Eigen::MatrixXd> out;
     for (std::size_t i = 0; i < count; ++i)
       out.push_back(engine.by_packing(list[at++], packings) - own);
@@ -215,11 +216,11 @@ std::unique_ptr<Prober> EmulatedProber::anchored(const ModelPoint &point) {
   const Eigen::MatrixXd there = engine_.by_packing(point, anchor_packings_);
   std::vector<Eigen::Index> whole;  // packings that lack no row
   for (Eigen::Index p = 0; p < there.rows(); ++p)
-    if (there.row(p).allFinite()) whole.push_back(p);
+    if ((there - as_run_.topRows(there.rows())).row(p).allFinite()) whole.push_back(p);
   if (whole.size() < least_anchors) return nullptr;
   Eigen::MatrixXd change(static_cast<Eigen::Index>(whole.size()), there.cols());
   for (std::size_t i = 0; i < whole.size(); ++i)
-    change.row(static_cast<Eigen::Index>(i)) = there.row(whole[i]) - rows_.row(whole[i]);
+    change.row(static_cast<Eigen::Index>(i)) = there.row(whole[i]) - as_run_.row(whole[i]);
   return std::make_unique<AnchoredProber>(*this, point, whole, change);
 }
 
@@ -264,7 +265,7 @@ void EmulatedProber::renew(std::size_t effect, const EffectEntry &entry) {
   for (std::size_t i = 0; i < knots.size(); ++i)
     points[i].amplitude(static_cast<Eigen::Index>(effect)) = knots[i];
   engine_.prepare(points, effect_packings_);
-  const Eigen::MatrixXd own = rows_.topRows(static_cast<Eigen::Index>(effect_packings_.size()));
+  const Eigen::MatrixXd own = as_run_.topRows(static_cast<Eigen::Index>(effect_packings_.size()));
   std::vector<Eigen::MatrixXd> changes;
   for (const auto &point : points)
     changes.push_back(engine_.by_packing(point, effect_packings_) - own);
@@ -273,18 +274,11 @@ void EmulatedProber::renew(std::size_t effect, const EffectEntry &entry) {
 
 Eigen::MatrixXd EmulatedProber::engine_changes(const ModelPoint &point) {
   engine_.prepare({point}, effect_packings_);
-  Eigen::MatrixXd out = engine_.by_packing(point, effect_packings_) -
-                        rows_.topRows(static_cast<Eigen::Index>(effect_packings_.size()));
-  for (Eigen::Index row = 0; row < out.cols(); ++row) {
-    const auto known = out.col(row).array().isFinite();
-    const auto count = known.count();
-    const double mean = count < least_packings ? 0
-                                               : known.select(out.col(row).array(), 0).sum() /
-                                                     static_cast<double>(count);
-    out.col(row) = count < least_packings
-                       ? Eigen::VectorXd::Zero(out.rows())
-                       : Eigen::VectorXd(known.select(out.col(row).array(), mean));
-  }
+  Eigen::MatrixXd out =
+      with_means_where_lacking(engine_.by_packing(point, effect_packings_) -
+                               as_run_.topRows(static_cast<Eigen::Index>(effect_packings_.size())));
+  for (Eigen::Index row = 0; row < out.cols(); ++row)
+    if (!out.col(row).allFinite()) out.col(row).setZero();
   return out;
 }
 
@@ -300,11 +294,12 @@ bool EmulatedProber::knows(std::size_t effect, double amplitude) const {
 
 std::vector<Eigen::VectorXd> EmulatedProber::confirm(const std::vector<ModelPoint> &points) {
   engine_.prepare(points, packings_);
-  const Eigen::MatrixXd own = rows_.topRows(static_cast<Eigen::Index>(packings_.size()));
+  const Eigen::MatrixXd own = as_run_.topRows(static_cast<Eigen::Index>(packings_.size()));
   std::vector<Eigen::VectorXd> out;
   for (const auto &point : points) {
     const Eigen::MatrixXd there = engine_.by_packing(point, packings_);
-    out.push_back(mean_ + Eigen::VectorXd((there - own).colwise().mean().transpose()));
+    const Eigen::MatrixXd change = with_means_where_lacking(there - own);
+    out.push_back(mean_ + Eigen::VectorXd(change.colwise().mean().transpose()));
   }
   return out;
 }

@@ -22,8 +22,9 @@
 //   Experiments (2015), ch. 2; the variance of few packings is widened by (P-1)/(P-3) as Student's;
 //   shrinking a mean towards zero: Efron & Morris, J. Am. Stat. Assoc. 70 (1975) 311.
 // Units: as ForwardProber. Failure: a row that fewer than three packings have at a knot is not
-//   changed by that coordinate and is given three times the packings' own scatter; an effect with
-//   no row left, or that the plan leaves out, is dead (NaN rows).
+//   changed by that coordinate and is given three times the packings' own scatter; a packing that
+//   lacks a row at the centre stands at the others' mean there and tells nothing of changes; an
+//   effect with no row left, or that the plan leaves out, is dead (NaN rows).
 // Limits: beyond its knots a coordinate goes on straight. Effects and parameters do not interact.
 #pragma once
 
@@ -100,7 +101,8 @@ class EmulatedProber : public Prober {
   double coordinate(std::size_t parameter, const ModelPoint &point) const;
   std::vector<std::vector<double>> parameter_knots_;  // x
   double step_;
-  Eigen::MatrixXd rows_;
+  Eigen::MatrixXd as_run_,
+      rows_;  // of the centre; where a packing lacks a row: NaN, the others' mean
   Eigen::VectorXd mean_, scatter_;  // of the centre: mean, variance over packings
   std::vector<Way> parameters_, effects_;
 };

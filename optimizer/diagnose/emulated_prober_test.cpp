@@ -80,8 +80,8 @@ TEST_F(Emulated, UncertaintyIsWhatOtherNoiseWouldChange) {
   EXPECT_EQ(emulated.uncertainty(at)(ucs_peak, brazilian_peak), 0) << "series are independent";
 }
 
-// Rows of an effect that does nothing (Brazilian platens, in compression) must not keep what packings
-// make of them by chance, and rows that change must not lose their change.
+// Rows of an effect that does nothing (Brazilian platens, in compression) must not keep what
+// packings make of them by chance, and rows that change must not lose their change.
 TEST_F(Emulated, WhatChanceMakesOfARowIsTakenOffItsMeanAndLeftInItsChanges) {
   model.chaos = 0.02;
   EmulatedProber emulated(engine, catalogue, engine.start(), plan);
@@ -163,6 +163,31 @@ TEST_F(Emulated, EffectWhoseRunsFailIsDead) {
   EmulatedProber none(other, catalogue, engine.start(), plan);
   EXPECT_FALSE(none.probe({with(engine.start(), "bond_gap", 1)}).front().allFinite());
   EXPECT_TRUE(std::isinf(none.trace_noise(static_cast<std::size_t>(index("bond_gap")))));
+}
+
+// One packing of eight has no Brazilian peak: the mean is that of the seven, changes are those of
+// the packings that have it, and nothing is lost.
+TEST_F(Emulated, PackingThatLacksARowLeavesItToTheOthers) {
+  const double start = engine.physical(engine.start())[sigma_c];
+  model.lacks = [start](const ForwardRequest &request) {
+    return request.test == "brazilian" && request.packing == 2 &&
+           std::abs(request.variables.at("sigma_c") / start - 1) < 1e-6;
+  };
+  EmulatedProber emulated(engine, catalogue, engine.start(), plan);
+  const auto base = emulated.probe({engine.start()}).front();
+  ASSERT_TRUE(base.allFinite());
+  EXPECT_NEAR(base(brazilian_peak) - base(ucs_peak), ((28 - 2) / 7.0 - 3.5) * by_packing, 1e-12);
+  const auto at = with(scaled(sigma_c, 1.05), "bond_gap", 2);
+  const double now = (gap * (1 + 2 * switch_on("bond_gap")) + gap_scale) / (gap + gap_scale);
+  const double change = std::log(1.05 * now);
+  EXPECT_NEAR(emulated.probe({at}).front()(brazilian_peak) - base(brazilian_peak), change, 1e-9);
+  EXPECT_NEAR(emulated.confirm({at}).front()(brazilian_peak) - base(brazilian_peak), change, 1e-9);
+  const Eigen::MatrixXd changes = emulated.engine_changes(at);
+  EXPECT_NEAR(changes(2, brazilian_peak), change, 1e-9);
+  // An anchor is made of the packings that have all.
+  const auto near = emulated.anchored(at);
+  ASSERT_NE(near, nullptr);
+  EXPECT_NEAR(near->probe({at}).front()(brazilian_peak) - base(brazilian_peak), change, 1e-9);
 }
 
 TEST_F(Emulated, SelectionOfRowsIsTheSameModelWithFewerRows) {

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <functional>
 
 #include "base/random.h"
 #include "diagnose/emulated_prober.h"
@@ -26,6 +27,7 @@ class StraightModel : public ForwardModel {
   double default_gap = 0;
   double chaos = 0;
   std::string failing;  // name of a test
+  std::function<bool(const ForwardRequest &)> lacks = [](const auto &) { return false; };
   std::vector<std::vector<ForwardRequest>> batches;
 
   std::vector<ForwardOutcome> run(const std::vector<ForwardRequest> &requests,
@@ -39,7 +41,7 @@ class StraightModel : public ForwardModel {
  private:
   ForwardOutcome one(const ForwardRequest &request) const {
     ForwardOutcome outcome;
-    if (request.test == failing) return outcome;
+    if (request.test == failing || lacks(request)) return outcome;
     const auto &v = request.variables;
     const double gap = v.count("gap") ? v.at("gap") : default_gap;
     const double peak = v.at("sigma_c") * (1 + gap / gap_scale) *

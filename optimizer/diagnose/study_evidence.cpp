@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "diagnose/coordinate_way.h"
 #include "diagnose/covariance.h"
 #include "diagnose/sensor_noise.h"
 #include "forward/run_plan.h"
@@ -210,13 +211,17 @@ std::vector<std::string> targets_of_envelopes(const Study &study) {
 }
 
 std::vector<ProbedSeries> that_scatter(std::vector<ProbedSeries> series,
-                                       const Eigen::MatrixXd &by_packing) {
+                                       const Eigen::MatrixXd &by_packing, double may_lack) {
+  const Eigen::MatrixXd filled = with_means_where_lacking(by_packing);
+  const auto packings = static_cast<double>(by_packing.rows());
   Eigen::Index row = 0;
   for (auto &s : series) {
     std::vector<CurveQuantity> kept;
     for (const auto &quantity : s.quantities) {
-      const Eigen::VectorXd column = by_packing.col(row++);
-      if (column.allFinite() && (column.array() - column.mean()).matrix().norm() > 1e-12)
+      const auto known = static_cast<double>(by_packing.col(row).array().isFinite().count());
+      const Eigen::VectorXd column = filled.col(row++);
+      if (packings - known <= may_lack * packings && column.allFinite() &&
+          (column.array() - column.mean()).matrix().norm() > 1e-12)
         kept.push_back(quantity);
     }
     s.quantities = kept;

@@ -50,9 +50,10 @@ std::vector<std::string> not_modelled(const std::vector<MeasuredSeries> &series,
 // when curves were measured instead of targets.
 std::vector<std::string> targets_of_envelopes(const Study &study);
 
-// Leaves out quantities whose simulated rows (packings x rows) are not finite or do not scatter.
+// Leaves out quantities whose simulated rows (packings x rows) do not scatter, or that more than this
+// share of the packings lacks (a specimen without a peak).
 std::vector<ProbedSeries> that_scatter(std::vector<ProbedSeries> series,
-                                       const Eigen::MatrixXd &by_packing);
+                                       const Eigen::MatrixXd &by_packing, double may_lack = 0);
 
 std::vector<ProbedSeries> probed(const std::vector<MeasuredSeries> &series);
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "refine/emulator_for_tests.h"
 
 namespace bondlab::diagnose {
@@ -25,6 +27,25 @@ TEST(StudyEvidence, LeavesOutFiguresOfEnvelopesAndNamesThem) {
             std::vector<std::string>{"c_peak, cohesion of envelope peak"});
   study.data = DataFolder();  // curves are compared instead of targets
   EXPECT_TRUE(targets_of_envelopes(study).empty());
+}
+
+TEST(StudyEvidence, RowThatFewPackingsLackIsKept) {
+  const std::vector<ProbedSeries> series = {
+      {"shear", "shear", {{CurvePart::peak, "whole"}, {CurvePart::peak, "one"}}},
+      {"ucs", "ucs", {{CurvePart::peak, "two"}, {CurvePart::peak, "still"}}}};
+  Eigen::MatrixXd rows(10, 4);
+  for (Eigen::Index p = 0; p < 10; ++p) rows.row(p) << p, p, p, 1;
+  rows(4, 1) = rows(4, 2) = rows(5, 2) = std::numeric_limits<double>::quiet_NaN();
+  const auto names = [](const std::vector<ProbedSeries> &of) {
+    std::vector<std::string> out;
+    for (const auto &s : of)
+      for (const auto &q : s.quantities) out.push_back(q.name);
+    return out;
+  };
+  EXPECT_EQ(names(that_scatter(series, rows)), std::vector<std::string>{"whole"});
+  EXPECT_EQ(names(that_scatter(series, rows, 0.1)), (std::vector<std::string>{"whole", "one"}));
+  EXPECT_EQ(names(that_scatter(series, rows, 0.2)),
+            (std::vector<std::string>{"whole", "one", "two"}));
 }
 
 }  // namespace

@@ -7,6 +7,12 @@
 
 namespace bondlab::diagnose {
 
+namespace {
+
+constexpr double may_lack = 0.1;  // of the packings, a row that is kept
+
+}  // namespace
+
 StudyModel::StudyModel(const Study &study, const std::vector<EffectDefinition> &all,
                        const ModelFactory &factory, EmulatorPlan plan,
                        std::function<void(const BatchProgress &)> progress)
@@ -31,7 +37,7 @@ void StudyModel::start(const std::vector<ProbedSeries> &series) {
     engine_->set_progress(progress_);
   };
   prober_of(series);
-  const auto kept = that_scatter(series, engine_->by_packing(engine_->start(), packings));
+  const auto kept = that_scatter(series, engine_->by_packing(engine_->start(), packings), may_lack);
   prober_of(kept);
   move_to(engine_->start());
 }
