@@ -11,6 +11,7 @@ namespace {
 constexpr int most_steps = 20;
 constexpr double gain_left = 0.01;  // in chi squared
 constexpr double longest_step = 1;  // in z
+constexpr double chance_pull = 2;   // in sd
 constexpr double farthest = 4;      // in z: within 2 % of a bound, where nothing changes any more
 
 // Whitened differences (simulated) over steps. Columns of points that failed are zero.
@@ -114,7 +115,11 @@ Linearisation linearise(Prober &prober, const Whitening &whitening, const ModelP
 }
 
 bool Refit::admissible() const {
-  return ok && std::none_of(at_bound.begin(), at_bound.end(), [](bool bound) { return bound; });
+  for (std::size_t i = 0; i < at_bound.size(); ++i) {
+    const double size = point.amplitude(static_cast<Eigen::Index>(effects[i]));
+    if (at_bound[i] && (size == 0 || pull[i] > chance_pull)) return false;
+  }
+  return ok;
 }
 
 Refit refit(Prober &prober, const Whitening &whitening, const std::vector<EffectEntry> &catalogue,
@@ -123,6 +128,7 @@ Refit refit(Prober &prober, const Whitening &whitening, const std::vector<Effect
   Refit result;
   result.effects = effects;
   result.at_bound.assign(effects.size(), false);
+  result.pull.assign(effects.size(), 0);
   result.point = start.point;
   const Eigen::Index p = start.jacobian.cols(), q = static_cast<Eigen::Index>(effects.size());
   Eigen::MatrixXd columns(start.jacobian.rows(), p + q);
@@ -196,6 +202,11 @@ Refit refit(Prober &prober, const Whitening &whitening, const std::vector<Effect
   Eigen::MatrixXd normal = columns.transpose() * columns;
   normal.diagonal() += damping.cwiseAbs2();
   result.covariance = normal.ldlt().solve(Eigen::MatrixXd::Identity(p + q, p + q));
+  const Eigen::VectorXd wanted = solve(columns);
+  for (Eigen::Index i = 0; i < q; ++i)
+    if (result.at_bound[static_cast<std::size_t>(i)])
+      result.pull[static_cast<std::size_t>(i)] =
+          std::abs(wanted(p + i)) / std::sqrt(result.covariance(p + i, p + i));
   return result;
 }
 

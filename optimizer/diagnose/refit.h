@@ -38,12 +38,15 @@ struct Refit {
   ModelPoint point;
   std::vector<std::size_t> effects;  // switched on
   std::vector<bool> at_bound;        // one an effect in `effects`
+  std::vector<double> pull;          // how far beyond the bound the rows ask for, in sd; 0 off it
   double chi2 = 0;
   double deviance = 0;  // chi2 plus the log determinant of the rows' covariance
   Eigen::VectorXd residual;
   Eigen::MatrixXd columns;     // Jacobian and the traces of `effects` at the point
   Eigen::MatrixXd covariance;  // of z and amplitudes; bounds ignored
-  bool admissible() const;     // no amplitude on a bound
+  // No amplitude on a bound, or on one other than 0 that chance may have pushed it over: a size
+  // near the largest that is possible comes out above it in every second specimen set.
+  bool admissible() const;
 };
 
 // Whitened columns at a point: the Jacobian, then the slopes along the amplitudes of `effects`.
