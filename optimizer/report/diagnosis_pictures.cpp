@@ -13,7 +13,8 @@ namespace bondlab::diagnose {
 
 namespace {
 
-constexpr int left = 150, top = 44, cell_width = 62, cell_height = 20, between = 30;
+constexpr int least_left = 150, letter = 7, top = 44, cell_width = 62, cell_height = 20,
+              between = 30;
 constexpr double full_colour = 6;  // noise units
 
 struct Cell {
@@ -36,15 +37,31 @@ std::string label(double x, double y, const char *anchor, const std::string &tex
       html_text(text));
 }
 
+const std::vector<std::string> along = {"strain_axial", "strain_platen", "displacement"},
+                               across = {"axial_stress", "force_top"};
+
 const std::vector<double> *first_of(const Curve &c, const std::vector<std::string> &names) {
   for (const auto &name : names)
     if (c.has(name)) return &c.column(name);
   return nullptr;
 }
 
+// "axial stress (Pa)" of the column that is drawn.
+std::string axis(const Curve &c, const std::vector<std::string> &names) {
+  for (const auto &name : names) {
+    if (!c.has(name)) continue;
+    std::string words = name;
+    std::replace(words.begin(), words.end(), '_', ' ');
+    const auto at = std::find(c.names.begin(), c.names.end(), name) - c.names.begin();
+    const std::string unit = c.units.at(static_cast<std::size_t>(at));
+    return unit == "1" ? words : fmt::format("{} ({})", words, unit);
+  }
+  return "";
+}
+
 std::string polyline(const Curve &c, double x_most, double y_most, const char *style) {
-  const auto *x = first_of(c, {"strain_axial", "strain_platen", "displacement"});
-  const auto *y = first_of(c, {"axial_stress", "force_top"});
+  const auto *x = first_of(c, along);
+  const auto *y = first_of(c, across);
   if (!x || !y) return "";
   std::string points;
   for (std::size_t i = 0; i < x->size(); ++i)
@@ -58,14 +75,17 @@ std::string polyline(const Curve &c, double x_most, double y_most, const char *s
 std::string curve_picture(const ShownSeries &s) {
   double x_most = 0, y_most = 0;
   const auto widen = [&](const Curve &c) {
-    if (const auto *x = first_of(c, {"strain_axial", "strain_platen", "displacement"}))
+    if (const auto *x = first_of(c, along))
       for (const double v : *x) x_most = std::max(x_most, v);
-    if (const auto *y = first_of(c, {"axial_stress", "force_top"}))
+    if (const auto *y = first_of(c, across))
       for (const double v : *y) y_most = std::max(y_most, v);
   };
   for (const auto &c : s.measured) widen(c);
   widen(s.before), widen(s.after);
   if (!(x_most > 0) || !(y_most > 0)) return "";
+  const Curve *shown = first_of(s.before, across) ? &s.before : &s.after;
+  for (const auto &c : s.measured)
+    if (!first_of(*shown, across)) shown = &c;
   std::string svg =
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 480 290\" width=\"480\">"
       "<path d=\"M40 20V260H460\" stroke=\"#888\" fill=\"none\"/>";
@@ -75,10 +95,9 @@ std::string curve_picture(const ShownSeries &s) {
                   "stroke=\"#c33\" stroke-width=\"2\" stroke-dasharray=\"6 3\"");
   svg += polyline(s.after, x_most, y_most, "stroke=\"#17a\" stroke-width=\"2\"");
   svg += fmt::format(
-      "<text x=\"460\" y=\"280\" text-anchor=\"end\" font-size=\"12\">strain or travel, to "
-      "{:.3g}</text><text x=\"44\" y=\"16\" font-size=\"12\">stress or force, to "
-      "{:.3g}</text></svg>",
-      x_most, y_most);
+      "<text x=\"460\" y=\"280\" text-anchor=\"end\" font-size=\"12\">{}, to {:.3g}</text>"
+      "<text x=\"44\" y=\"16\" font-size=\"12\">{}, to {:.3g}</text></svg>",
+      axis(*shown, along), x_most, axis(*shown, across), y_most);
   return svg;
 }
 
@@ -96,6 +115,9 @@ std::string where_picture(const StudyDiagnosis &d) {
   const auto count = static_cast<Eigen::Index>(d.rows.size());
   if (before.size() != count || after.size() != count) return "";
   const int columns = static_cast<int>(parts.size()), block = columns * cell_width + between;
+  std::size_t longest = 0;
+  for (const auto &name : series) longest = std::max(longest, name.size());
+  const int left = std::max(least_left, letter * static_cast<int>(longest) + 12);
   const int width = left + 2 * block,
             height = top + static_cast<int>(series.size()) * cell_height + 8;
   std::string svg = fmt::format(
