@@ -43,8 +43,8 @@ Refit fit_of(double z, double amplitude) {
 
 TEST(Refit, SizeWithinItsBoundsIsFoundAndAdmissible) {
   const Refit fit = fit_of(0.3, 0.8);
-  EXPECT_NEAR(fit.point.z(0), 0.3, 0.01);  // held back by the damping, 1 in 100
-  EXPECT_NEAR(fit.point.amplitude(0), 0.8, 0.02);
+  EXPECT_NEAR(fit.point.z(0), 0.3, 0.004);  // held back by the damping, 1 in 100
+  EXPECT_NEAR(fit.point.amplitude(0), 0.8, 0.004);
   EXPECT_FALSE(fit.at_bound[0]);
   EXPECT_EQ(fit.pull[0], 0);
   EXPECT_TRUE(fit.admissible());
@@ -55,14 +55,14 @@ TEST(Refit, BoundThatChanceMayHavePushedOverIsAdmissible) {
   const Refit fit = fit_of(0.3, 1.2);
   EXPECT_EQ(fit.point.amplitude(0), 1);
   EXPECT_TRUE(fit.at_bound[0]);
-  EXPECT_NEAR(fit.pull[0], 0.2 / (0.1 * std::sqrt(2.0)), 0.1);
+  EXPECT_NEAR(fit.pull[0], 0.2 / (0.1 * std::sqrt(2.0)), 0.03);
   EXPECT_TRUE(fit.admissible());
 }
 
 TEST(Refit, BoundThatTheRowsAskFarBeyondIsNot) {
   const Refit fit = fit_of(0.3, 1.5);
   EXPECT_EQ(fit.point.amplitude(0), 1);
-  EXPECT_NEAR(fit.pull[0], 0.5 / (0.1 * std::sqrt(2.0)), 0.2);
+  EXPECT_NEAR(fit.pull[0], 0.5 / (0.1 * std::sqrt(2.0)), 0.05);
   EXPECT_FALSE(fit.admissible());
 }
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "diagnose/straight_model_for_tests.h"
+
 namespace bondlab::diagnose {
 namespace {
 
@@ -30,6 +32,31 @@ TEST(StudyModel, WhatIsForbiddenForOneCaseMayBeNamedInTheNext) {
   model.forbid([](const std::string &name) { return name == "tension_modulus"; });
   EXPECT_EQ(sizes("tilt"), tilt);
   EXPECT_EQ(sizes("tension_modulus"), nothing);
+}
+
+// Of ten packings one has no Brazilian test: its rows are kept. Of ten two: they are not.
+class StudyModelStart : public StraightModelTest {
+ protected:
+  int rows(int packings_without) {
+    const auto of_gap = [this, packings_without](const Study &) {
+      auto out = std::make_unique<StraightModel>(model);
+      out->lacks = [packings_without](const ForwardRequest &request) {
+        return request.test == "brazilian" && request.packing < packings_without;
+      };
+      return std::unique_ptr<ForwardModel>(std::move(out));
+    };
+    EmulatorPlan plan{10, 6, 0.12};
+    model.chaos = 0.02;
+    StudyModel started(given, effects, of_gap, plan);
+    started.start(series);
+    return started.engine().rows();
+  }
+};
+
+TEST_F(StudyModelStart, KeepsARowThatATenthOfThePackingsLacks) {
+  const int all = rows(0);
+  EXPECT_EQ(rows(1), all);
+  EXPECT_LT(rows(2), all);
 }
 
 }  // namespace
