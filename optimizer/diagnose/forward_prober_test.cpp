@@ -145,5 +145,20 @@ TEST(CatalogueOfAStudy, CutsSizesToWhatTheDecksAccept) {
     }
 }
 
+// A moment counts whole or less: with beta 1 there is no more of it to be had, only less.
+TEST(CatalogueOfAStudy, LetsAMomentCountWholeAtMost) {
+  const std::filesystem::path inputs = std::filesystem::path(BONDLAB_SOURCE_DIR) / "inputs";
+  const Study study = read_study(inputs / "studies" / "granite.toml");
+  const auto effects = read_effects(inputs / "effects");
+  const auto catalogue = catalogue_of(study, effects);
+  const auto moment = std::find_if(catalogue.begin(), catalogue.end(), [](const auto &entry) {
+    return entry.name == "moment_contribution";
+  });
+  ASSERT_NE(moment, catalogue.end());
+  EXPECT_EQ(moment->switch_on, -0.1);
+  EXPECT_EQ(std::max(moment->lowest, moment->largest), 0);
+  EXPECT_EQ(std::min(moment->lowest, moment->largest), -1);
+}
+
 }  // namespace
 }  // namespace bondlab::diagnose
