@@ -20,6 +20,8 @@
 #include "base/write_file.h"
 #include "forward/engine_forward_model.h"
 #include "forward/interrupt.h"
+#include "report/case_plots.h"
+#include "report/gnuplot.h"
 #include "response/check.h"
 #include "response/envelope.h"
 #include "response/response.h"
@@ -62,10 +64,14 @@ std::string checks_table(const Study &study, const std::vector<std::string> &tes
     }
   if (worst.empty()) return "";
   std::string page = "## Checks of the runs\n\n| test | check | worst of all runs |\n|---|---|---|\n";
+  std::string warnings;
   for (const auto &[test, figures] : worst)
-    for (const auto &[name, value] : figures)
+    for (const auto &[name, value] : figures) {
       page += fmt::format("| {} | {} | {:.2g} |\n", test, quality_words(name), value);
-  return page + "\n";
+      if (const std::string warning = quality_warning(name, value); !warning.empty())
+        warnings += fmt::format("- {}, the worst run: {}.\n", test, warning);
+    }
+  return page + "\n" + (warnings.empty() ? "" : warnings + "\n");
 }
 
 using RunsOfCase = std::map<std::string, const ForwardOutcome *>;  // on one packing, by the study's test
@@ -158,6 +164,20 @@ void compare(const Options &options) {
   write_file(folder / "comparison.tsv", tables.tsv);
   fmt::print("{}\n{} runs ({} failed), {:.0f} s of engine time\ntable: {}\n", tables.page, outcomes.size(), failed,
              seconds, (folder / "comparison.md").string());
+  std::vector<CaseCurve> curves;
+  for (std::size_t r = 0; r < outcomes.size(); ++r)
+    if (slots[r].packing == 0 && outcomes[r].ok)
+      curves.push_back({slots[r].test, study.cases[slots[r].case_index].name, &outcomes[r].curve});
+  if (const auto plot = case_plot(study.title, curves)) {
+    const std::filesystem::path pictures = folder / "curves";
+    std::filesystem::create_directories(pictures);
+    try {
+      draw_plot(*plot, pictures);
+      fmt::print("curves: {}\n", (pictures / "curves.svg").string());
+    } catch (const UserError &error) {
+      fmt::print("no picture of the curves: {}\n", error.text());
+    }
+  }
   for (const std::size_t k : chosen)
     for (const auto &[name, figure] : figures[k])
       if (figure.count == 0 && (figure.failed_runs > 0 || study.cases[k].expected.count(name)))

@@ -116,11 +116,14 @@ void print_responses(const Study &study, const TestEntry &test, const ForwardOut
     }
     fmt::print("  {:<16} {:<16} {}\n", name, shown, beside);
   }
-  std::string checks;
-  for (const auto &[name, value] : run_quality(test, outcome))
+  std::string checks, warnings;
+  for (const auto &[name, value] : run_quality(test, outcome)) {
     if (const std::string words = quality_words(name); !words.empty())
       checks += fmt::format("{}{} {:.2g}", checks.empty() ? "" : "; ", words, value);
-  if (!checks.empty()) fmt::print("  checks: {}\n", checks);
+    if (const std::string warning = quality_warning(name, value); !warning.empty())
+      warnings += "  note: " + warning + "\n";
+  }
+  if (!checks.empty()) fmt::print("  checks: {}\n{}", checks, warnings);
   fmt::print("  {}\n  replay: {}\n", outcome.run_directory, outcome.replay_command);
 }
 

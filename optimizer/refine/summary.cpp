@@ -82,15 +82,12 @@ void add_outcomes(const Evaluator &evaluator, const TransformedPoint &point, Sin
     best.test = test;
     best.outcome = *outcome;
     best.quality = run_quality(study.test(test), *outcome);
-    const auto imbalance = best.quality.find("platen_imbalance");
-    if (imbalance != best.quality.end() && imbalance->second > noticeable_imbalance) {
+    for (const auto &[name, value] : best.quality) {
+      const std::string warning = quality_warning(name, value);
+      if (warning.empty()) continue;
       Finding finding;
       finding.kind = FindingKind::quality;
-      finding.text = fmt::format(
-          "test {}: the forces on the two platens differ by up to {:.0f} % between 40 and 60 % of "
-          "the peak: the "
-          "loading is not quasi-static, a slower platen is advisable",
-          test, 100 * imbalance->second);
+      finding.text = fmt::format("test {}: {}", test, warning);
       result.findings.push_back(std::move(finding));
     }
     result.best.push_back(std::move(best));

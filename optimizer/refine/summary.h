@@ -16,9 +16,6 @@
 
 namespace bondlab {
 
-// Platens that differ by more than this in the regression window: the test is not quasi-static, a
-// finding.
-constexpr double noticeable_imbalance = 0.05;
 
 // Fills targets, parameters, packings, best outcomes, findings, verdict. `noise` has one entry a
 // target of the study.

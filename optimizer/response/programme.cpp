@@ -33,6 +33,15 @@ SampleWindow first_stretch(const Curve &curve, Phase phase, const char *name) {
   return stretch;
 }
 
+// Where it is judged whether the run is at rest but for what it measures.
+SampleWindow end_of_the_hold(const Curve &curve) {
+  const auto &phases = finite_column(curve, "phase");
+  const bool keeps = std::count(phases.begin(), phases.end(), static_cast<double>(keeping)) > 0;
+  return last_part(keeps ? first_stretch(curve, keeping, "hold of the load")
+                         : first_stretch(curve, holding, "hold of the displacement"),
+                   1.0 / 3);
+}
+
 }  // namespace
 
 double unloading_modulus(const Curve &curve, const ResponseContext &) {
@@ -70,6 +79,15 @@ double creep_rate(const Curve &curve, const ResponseContext &) {
                         fmt::format("{} samples in the last third of the hold, {} needed",
                                     end.size(), minimum_window_samples));
   return fit_line(finite_column(curve, "time"), finite_column(curve, "strain_axial"), end).slope;
+}
+
+double hold_imbalance(const Curve &curve, const ResponseContext &) {
+  return relative_imbalance(finite_column(curve, "force_top"), finite_column(curve, "force_bottom"),
+                            end_of_the_hold(curve));
+}
+
+double hold_kinetic_share(const Curve &curve, const ResponseContext &) {
+  return kinetic_share(curve, end_of_the_hold(curve));
 }
 
 }  // namespace bondlab::programme

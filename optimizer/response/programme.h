@@ -8,7 +8,8 @@
 //   from the turns. The creep rate is the slope of gauge strain in time over the last third of the
 //   stretch (the transient is over, as far as it can be), a straight line fitted in the linear
 //   domain: rates of either sign may come out.
-// Columns read: time, phase, axial_stress (Pa), strain_axial (gauge).
+// Columns read: time, phase, axial_stress (Pa), strain_axial (gauge); for the quality figures
+//   force_top, force_bottom (N), kinetic_energy, strain_energy (J).
 // Units: SI. Failure: ResponseError; test_not_finished when the phase never came.
 // Limits: one stretch per run; a hold that begins while cracks run shows them as relaxation.
 #pragma once
@@ -20,5 +21,10 @@ namespace bondlab::programme {
 double unloading_modulus(const Curve &curve, const ResponseContext &context);  ///< Pa
 double relaxed_share(const Curve &curve, const ResponseContext &context);  ///< 1 - last/first stress
 double creep_rate(const Curve &curve, const ResponseContext &context);     ///< 1/s
+/// Quality: largest difference of the two platens' forces in the last third of the kept load, or of
+/// the hold where no load is kept, as a share of their mean.
+double hold_imbalance(const Curve &curve, const ResponseContext &context);
+/// Quality: largest kinetic over strain energy there.
+double hold_kinetic_share(const Curve &curve, const ResponseContext &context);
 
 }  // namespace bondlab::programme

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "response/run_quality.h"
 
 namespace bondlab {
 namespace {
@@ -64,6 +67,44 @@ TEST(Programme, TooFewSamplesAreRefused) {
   }
   EXPECT_EQ(cause_of("programme.unloading_modulus", curve), ResponseCause::window_too_small);
   EXPECT_EQ(cause_of("programme.creep_rate", curve), ResponseCause::window_too_small);
+}
+
+// The end of the kept load counts, not the servo's first knock; without one, the hold.
+TEST(Programme, TheEndOfTheHoldIsJudged) {
+  Curve curve = programme_curve();
+  curve.names.insert(curve.names.end(),
+                     {"force_top", "force_bottom", "kinetic_energy", "strain_energy"});
+  for (const double value : {100.0, 100.0, 1e-6, 1.0})
+    curve.columns.emplace_back(curve.rows(), value);
+  auto &bottom = curve.columns[5], &kinetic = curve.columns[6];
+  const auto &phase = curve.columns[1];
+  const auto keeps = static_cast<std::size_t>(std::find(phase.begin(), phase.end(), 3) - phase.begin());
+  const auto holds = static_cast<std::size_t>(std::find(phase.begin(), phase.end(), 2) - phase.begin());
+  bottom[keeps + 2] = 300, kinetic[keeps + 2] = 0.5;
+  bottom[holds + 40] = 150, kinetic[holds + 40] = 0.25;
+  bottom[keeps + 80] = 98, kinetic[keeps + 80] = 2e-3;
+  auto figures = quality_figures("programme.creep_rate", curve, {});
+  EXPECT_NEAR(figures.at("hold_imbalance"), 0.02, 2e-4);
+  EXPECT_NEAR(figures.at("hold_kinetic_share"), 2e-3, 1e-12);
+  for (double &p : curve.columns[1])
+    if (p == 3) p = 0;
+  figures = quality_figures("programme.relaxed_share", curve, {});
+  EXPECT_NEAR(figures.at("hold_imbalance"), 0.5, 0.02);
+  EXPECT_NEAR(figures.at("hold_kinetic_share"), 0.25, 1e-12);
+}
+
+TEST(RunQuality, WarnsBeyondItsBoundsOnly) {
+  const std::vector<std::pair<std::string, double>> bounds = {
+      {"platen_imbalance", 0.05}, {"hold_imbalance", 0.05},    {"kinetic_share", 0.01},
+      {"hold_kinetic_share", 0.01}, {"first_cracks", 2.0 / 3}};
+  for (const auto &[figure, bound] : bounds) {
+    EXPECT_EQ(quality_warning(figure, 0.99 * bound), "") << figure;
+    EXPECT_NE(quality_warning(figure, 1.01 * bound), "") << figure;
+    EXPECT_NE(quality_words(figure), "") << figure;
+  }
+  EXPECT_EQ(quality_warning("peak_strain", 1e9), "");
+  EXPECT_NE(quality_warning("hold_kinetic_share", 1).find("the end of the hold"), std::string::npos);
+  EXPECT_NE(quality_warning("kinetic_share", 1).find("of the peak"), std::string::npos);
 }
 
 }  // namespace
