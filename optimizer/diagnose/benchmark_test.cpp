@@ -70,8 +70,12 @@ TEST(DiagnosisBenchmark, RightEffectClosesTheGapHeldOutAndAPlaceboDoesNot) {
 TEST(DiagnosisBenchmark, YieldingFrameIsNeverCalledAnEffectOfBonds) {
   for (const auto &series : {std::vector<std::string>{}, few_series()}) {
     Bench bench(bench_series(series), 2);
-    for (const double size : {lambda, 2 * lambda})
-      EXPECT_EQ(frame_benchmark(bench, 100, size).called_bond.hits, 0);
+    for (const double size : {lambda, 2 * lambda}) {
+      const auto r = frame_benchmark(bench, 100, size);
+      EXPECT_EQ(r.called_bond.hits, 0);
+      // Beside the frame, which is named: with few tests it happens, as rarely as a false alarm.
+      EXPECT_LE(r.bond_beside.share(), 0.02) << r.bond_beside.text();
+    }
   }
 }
 

@@ -19,6 +19,9 @@ namespace {
 
 using nlohmann::json;
 
+// A uniform guess within the range has 0.29 of it.
+constexpr double unidentified = 0.25;
+
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
 std::string shown(double value) {
@@ -171,12 +174,21 @@ std::string diagnosis_text(const Study &study, const StudyDiagnosis &d) {
                        quantity(d.parameters_before[i], d.sd_before[i]),
                        quantity(d.parameters_after[i], d.sd_after[i]));
   }
-  out += "\ncan't be told apart well (before any residual was looked at, ten noise units)\n";
+  for (std::size_t i = 0; i < study.parameters.size(); ++i) {
+    const auto &p = study.parameters[i];
+    const double sd = d.sd_after[i], range = p.upper - p.lower;
+    if (!std::isfinite(sd) || sd > unidentified * range)
+      out += fmt::format("  {}: these data can't identify it (its sd is {} of its range)\n", p.name,
+                         std::isfinite(sd) ? fmt::format("{:.0f} %", 100 * sd / range) : "more than all");
+  }
+  out += "\ncan't be told apart well (at the fitted point, from no residual; ten noise units)\n";
   if (d.isolability.empty()) out += "  none\n";
   for (const auto &pair : d.isolability)
     out += fmt::format("  {} / {}: cosine {:.2f}, confused {:.0f} %\n", pair.first, pair.second,
                        pair.cosine, 100 * pair.chance);
   for (const auto &name : d.hidden) out += "  " + name + ": not seen by these tests\n";
+  out +=
+      "  scatter between specimens is no row: what only widens it (scatter of strength) isn't seen\n";
   out += "\nsmallest size that would have been seen (90 %)\n";
   for (std::size_t k = 0; k < g.smallest_size.size(); ++k)
     out += fmt::format("  {:<26} {}\n", d.catalogue[k].name,

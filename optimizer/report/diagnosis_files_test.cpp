@@ -97,6 +97,22 @@ TEST_F(DiagnosisFiles, ThePlaceboStandsWithTheRowsThatItIsJudgedBy) {
       << line("all that was fitted");
 }
 
+TEST_F(DiagnosisFiles, SaysWhichParameterTheDataCannotIdentify) {
+  const auto says = [&](const std::string &name) {
+    return diagnosis_text(study, d).find("  " + name + ": these data can't identify it") !=
+           std::string::npos;
+  };
+  const auto &p = study.parameters[1];
+  EXPECT_FALSE(says(p.name));
+  d.sd_after[1] = 0.26 * (p.upper - p.lower);
+  EXPECT_TRUE(says(p.name));
+  EXPECT_FALSE(says(study.parameters[0].name));
+  d.sd_after[1] = 0.24 * (p.upper - p.lower);
+  EXPECT_FALSE(says(p.name));
+  d.sd_after[1] = none;
+  EXPECT_TRUE(says(p.name));
+}
+
 TEST_F(DiagnosisFiles, WhatCouldNotBeHadIsNullAndKeepsItsKey) {
   d.gap.holdout_before = d.gap.holdout_after = none;
   d.diagnosis.effects[0].margin = std::numeric_limits<double>::infinity();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Job: the missing-effect workflow, reduced, from the command line: `bondlab trial` hides three cases
+// Job: the missing-effect workflow, reduced, from the command line: `bondlab trial` hides four cases
 // of tests/data/hidden_small in engine runs and judges what it names; `bondlab diagnose` then reads
-// one of these data folders without its sealed truth, and must say the same and write the model that
-// it proposes. Units: as in trial.json and diagnosis.json. Failure: the folder is left and named.
+// one of these data folders without its sealed truth, must say the same, write the model that it
+// proposes and find nothing missing in that. Units: as in trial.json and diagnosis.json. Failure: the folder is left and named.
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>
@@ -83,9 +83,13 @@ TEST_F(ReducedDiagnosis, NamesWhatWasHiddenAndNothingWhereNothingWas) {
   fs::remove(data / "sealed_truth.json");
   ASSERT_EQ(bondlab("diagnose '" + (kSource / "inputs/studies/hidden_small.toml").string() +
                     "' --data '" + data.string() + "' --out '" + (out / "model").string() +
-                    "' --holdout none" + effects + kPlan),
+                    "' --holdout none --rounds 3" + effects + kPlan),
             0)
       << screen();
+  // The model with what was named is asked again; it lacks nothing, so there is no third round.
+  const json again = json::parse(text_of(out / "model" / "round_2" / "diagnosis.json"));
+  EXPECT_EQ(again.at("verdict"), "nothing") << again.dump(1);
+  EXPECT_FALSE(fs::exists(out / "model" / "round_3"));
   const json diagnosis = json::parse(text_of(out / "model" / "diagnosis.json"));
   EXPECT_EQ(diagnosis.at("verdict"), "one");
   ASSERT_EQ(diagnosis.at("effects").size(), 1u);
