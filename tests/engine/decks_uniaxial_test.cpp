@@ -233,6 +233,28 @@ TEST(UniaxialDeck, holds_a_displacement_or_a_load) {
   }
 }
 
+// Creeping bonds give way under a held load, twice as fast at twice the creep rate. Grains don't touch
+// beside their bonds: contacts would take the load over.
+TEST(UniaxialDeck, creeps_under_a_held_load_in_proportion_to_the_creep_rate) {
+  const auto crept = [](const std::string &rate) {
+    EngineFolder folder;
+    const Table t = rectangle(folder, {kStrong, kTough, {"max_strain", "0.003"}, {"creep_time", "2e-4"},
+                                       {"creep_rate", rate}, {"bond_contact", "no"}});
+    const auto way = t.column("displacement"), phase = t.column("phase");
+    std::size_t first = 0, last = 0;
+    for (std::size_t k = 0; k < phase.size(); ++k)
+      if (phase[k] == 3) {
+        if (!first) first = k;
+        last = k;
+      }
+    EXPECT_GT(first, 0u);
+    return way[last] - way[first + (last - first) / 3];  // behind the servo's start
+  };
+  const double none = crept("0"), slow = crept("0.05") - none, fast = crept("0.1") - none;
+  EXPECT_GT(slow, 10 * std::abs(none));
+  EXPECT_NEAR(fast / slow, 2.0, 0.1);
+}
+
 TEST(UniaxialDeck, steps_the_rate_at_its_strain) {
   EngineFolder folder;
   const Table t = rectangle(folder, {kStrong, kTough, {"max_strain", "0.0016"},
