@@ -244,4 +244,9 @@ TEST(CantileverDeck, a_packed_beam_breaks_at_its_root) {
   EXPECT_GT(broken.column("y").front(), 0.010);
 }
 
+TEST(CantileverDeck, is_the_same_on_1_2_and_4_ranks) {
+  expect_same_on_ranks("cantilever",
+                       with_specimen("beam_small_2d.data") + var({{"platen_speed", "0.1"}}), 0);
+}
+
 }  // namespace

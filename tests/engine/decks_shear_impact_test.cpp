@@ -66,6 +66,10 @@ TEST(TensionDeck, bonds_alone_are_as_stiff_in_tension_as_in_compression) {
   EXPECT_NEAR(modulus(pull) / modulus(push), 1.0, 0.05);
 }
 
+TEST(TensionDeck, is_the_same_on_1_2_and_4_ranks) {
+  expect_same_on_ranks("direct_tension", with_specimen("rectangle_small_2d.data"), 5);
+}
+
 // ---- direct shear ----
 
 Table sheared(const EngineFolder &folder,
@@ -139,6 +143,11 @@ TEST(ShearDeck, runs_in_3d) {
   EXPECT_EQ(t.completion, "stop_at_limit");
   EXPECT_NEAR(t.last("normal_stress"), 5e6, 0.7 * 5e6);
   EXPECT_GT(largest(t.column("shear_stress")), 1e6);
+}
+
+TEST(ShearDeck, is_the_same_on_1_2_and_4_ranks) {
+  expect_same_on_ranks("direct_shear",
+                       with_specimen("box_small_2d.data") + var({{"max_shear", "0.004"}}));
 }
 
 // ---- impact ----
