@@ -142,10 +142,18 @@ TEST(BrazilianDeck, cracks_start_in_the_middle_between_close_soft_jaws) {
   const double peak = t.column("time")[std::max_element(load.begin(), load.end()) - load.begin()];
   const engine::Table broken = engine::read_table(folder.file("broken_bonds.tsv"));
   const auto x = broken.column("x"), y = broken.column("y"), time = broken.column("time");
-  double sum = 0, count = 0;
-  for (std::size_t k = 0; k < x.size() && time[k] <= peak; ++k) sum += std::hypot(x[k], y[k]), ++count;
-  ASSERT_GT(count, 5);
-  EXPECT_LT(sum / count / 0.025, 0.5);  // cracks spread evenly would lie at 2/3
+  std::size_t count = 0;
+  while (count < x.size() && time[count] <= peak) ++count;
+  ASSERT_GT(count, 5u);
+  const auto mean = [&](std::size_t until) {  // distance from the centre over the radius
+    double sum = 0;
+    for (std::size_t k = 0; k < until; ++k) sum += std::hypot(x[k], y[k]);
+    return sum / static_cast<double>(until) / 0.025;
+  };
+  // Cracks spread evenly would lie at 2/3, at the platens at 1. The first ones as `bondlab run` has
+  // them; on another packing than this they are at 0.71 (README.md).
+  EXPECT_LT(mean(std::max<std::size_t>(5, count / 10)), 0.6);
+  EXPECT_LT(mean(count), 0.5);
 }
 
 TEST(BrazilianDeck, runs_in_3d) {
