@@ -12,6 +12,7 @@
 #include "base/random.h"
 #include "diagnose/advice.h"
 #include "diagnose/comparators.h"
+#include "diagnose/placebo.h"
 
 namespace bondlab::diagnose {
 
@@ -254,15 +255,13 @@ HoldoutResult holdout_benchmark(Bench &bench, int cases_per_effect, double lambd
       };
       judge({effect}, after, floor_after);
       const Refit base = judge({}, before, floor_before);
-      // The placebo: as many parameters, the same rows and the same size in each, without the
-      // sense: the effect's own trace with a sign drawn for every row.
       RandomStream random(number, 32);
-      Eigen::VectorXd placebo = model.traces.col(static_cast<Eigen::Index>(effect));
-      for (Eigen::Index row = 0; row < placebo.size(); ++row)
-        if (random.uniform() < 0.5) placebo(row) = -placebo(row);
+      const auto placebo =
+          placebo_of(model.traces.col(static_cast<Eigen::Index>(effect)), random);
+      if (!placebo) continue;
       const Eigen::VectorXd residual = whitening.residual(laboratory.probe({base.point}).front());
       Eigen::MatrixXd columns(whitening.rows(), model.jacobian.cols() + 1);
-      columns << model.jacobian, placebo;
+      columns << model.jacobian, *placebo;
       Eigen::MatrixXd fitted = columns;
       fitted.array().colwise() *= on.array();
       const Eigen::VectorXd x =

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/cross_gap.h"
 
-#include "base/random.h"
+#include <limits>
+
+#include "diagnose/placebo.h"
 
 namespace bondlab::diagnose {
 
@@ -10,14 +12,15 @@ namespace {
 constexpr int placebo_draws = 50;
 constexpr double most_unknown = 3;  // variance of a prediction over that of the rows
 
-// Whitened residual of the rows held out, after a linear fit of `columns` to the others.
+// Whitened residual of the rows held out, after a linear fit of the parameters and a placebo to the
+// others; not a number where there is no placebo.
 double left_of_placebo(const Linearisation &model, std::size_t effect, const Eigen::VectorXd &on,
                        RandomStream &random) {
-  Eigen::VectorXd placebo = model.traces.col(static_cast<Eigen::Index>(effect));
-  for (Eigen::Index row = 0; row < placebo.size(); ++row)
-    if (random.uniform() < 0.5) placebo(row) = -placebo(row);
-  Eigen::MatrixXd columns(placebo.size(), model.jacobian.cols() + 1);
-  columns << model.jacobian, placebo;
+  const auto placebo =
+      placebo_of(model.traces.col(static_cast<Eigen::Index>(effect)), random);
+  if (!placebo) return std::numeric_limits<double>::quiet_NaN();
+  Eigen::MatrixXd columns(placebo->size(), model.jacobian.cols() + 1);
+  columns << model.jacobian, *placebo;
   const Eigen::VectorXd x = Eigen::MatrixXd(on.asDiagonal() * columns)
                                 .colPivHouseholderQr()
                                 .solve(Eigen::VectorXd(model.residual.cwiseProduct(on)));

@@ -4,8 +4,8 @@
 // Method: every series is held out in turn; the parameters alone, and the parameters with the named
 //   effects, are fitted to the others, and judged by the whitened residual of the one held out. The
 //   floor is what a right model would leave: a row's own noise and the fit's. The placebo is the
-//   first effect's trace with the signs of its rows drawn at random, fitted in the same way, to
-//   first order; the mean over 50 draws.
+//   first effect's trace with the signs of its rows drawn at random (placebo.h), fitted in the same
+//   way, to first order; the mean over 50 draws. It is not a number where there is none.
 // Source: leave-one-group-out cross validation, Stone 1974.
 // Units: chi squared over all rows. Failure: a series whose fits give no figures is left out,
 //   and one that the others cannot predict, because it alone shows the effect.

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/random.h"
+#include "diagnose/placebo.h"
 
 namespace bondlab::diagnose {
 
@@ -20,18 +20,18 @@ double rms(const Eigen::VectorXd &residual) {
 }
 
 // Gap after the refit of the parameters and a placebo, over the rows judged: those held out where
-// there are any, else all.
+// there are any, else all; not a number where there is no placebo.
 double placebo_gap(const Linearisation &model, std::size_t effect, const Eigen::VectorXd &training,
                    const Eigen::VectorXd &judged, std::uint64_t seed) {
   RandomStream random(seed, 31);
   const Eigen::VectorXd residual = model.residual;
   double sum = 0;
   for (int draw = 0; draw < placebo_draws; ++draw) {
-    Eigen::VectorXd placebo = model.traces.col(static_cast<Eigen::Index>(effect));
-    for (Eigen::Index row = 0; row < placebo.size(); ++row)
-      if (random.uniform() < 0.5) placebo(row) = -placebo(row);
+    const auto placebo =
+        placebo_of(model.traces.col(static_cast<Eigen::Index>(effect)), random);
+    if (!placebo) return std::numeric_limits<double>::quiet_NaN();
     Eigen::MatrixXd columns(residual.size(), model.jacobian.cols() + 1);
-    columns << model.jacobian, placebo;
+    columns << model.jacobian, *placebo;
     const Eigen::MatrixXd used = training.asDiagonal() * columns;
     const Eigen::VectorXd x = used.colPivHouseholderQr().solve(residual.cwiseProduct(training));
     sum += (residual - columns * x).cwiseProduct(judged).squaredNorm() / judged.sum();

@@ -162,8 +162,10 @@ std::string diagnosis_text(const Study &study, const StudyDiagnosis &d) {
   if (d.cross.before > d.cross.floor && d.cross.floor > 0)
     out += fmt::format(
         "  every series held out in turn: {:.0f} % of the way to the noise floor "
-        "closed, by a placebo {:.0f} %\n",
-        100 * d.cross.closed(), 100 * d.cross.closed_by_placebo());
+        "closed, by a placebo {}\n",
+        100 * d.cross.closed(),
+        std::isfinite(d.cross.placebo) ? fmt::format("{:.0f} %", 100 * d.cross.closed_by_placebo())
+                                       : "none: one row alone shows the effect");
   out += "\nparameters                      before                     after\n";
   for (std::size_t i = 0; i < study.parameters.size(); ++i) {
     const auto &p = study.parameters[i];

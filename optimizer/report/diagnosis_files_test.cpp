@@ -97,6 +97,17 @@ TEST_F(DiagnosisFiles, ThePlaceboStandsWithTheRowsThatItIsJudgedBy) {
       << line("all that was fitted");
 }
 
+TEST_F(DiagnosisFiles, SaysWhereAPlaceboWouldBeTheEffectItself) {
+  const auto says = [&](const std::string &words) {
+    return diagnosis_text(study, d).find(words) != std::string::npos;
+  };
+  d.cross.before = 30, d.cross.after = 10, d.cross.placebo = 40, d.cross.floor = 5;
+  EXPECT_TRUE(says("held out in turn: 80 % of the way to the noise floor closed, by a placebo -40 %"));
+  d.cross.placebo = none;
+  EXPECT_TRUE(says("80 % of the way to the noise floor closed, by a placebo none: one row alone"));
+  EXPECT_TRUE(json::parse(diagnosis_json(study, d)).at("held_out_in_turn").at("placebo").is_null());
+}
+
 TEST_F(DiagnosisFiles, SaysWhichParameterTheDataCannotIdentify) {
   const auto says = [&](const std::string &name) {
     return diagnosis_text(study, d).find("  " + name + ": these data can't identify it") !=
