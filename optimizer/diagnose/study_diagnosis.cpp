@@ -220,11 +220,9 @@ StudyDiagnosis diagnose_measured(StudyModel &model, std::vector<MeasuredSeries> 
   const Whitening plan(without_data(evidence));
   const Linearisation planned = linearise(prober, plan, at);
   isolability(ScoreTable(Projection(planned.jacobian), planned, out.catalogue), out);
-  for (const auto &pair : out.isolability)
-    say(
-        fmt::format("can't be told apart well: {} and {} (cosine {:.2f}, confused {:.0f} % of the "
-                    "time at {:.0f} noise units)",
-                    pair.first, pair.second, pair.cosine, 100 * pair.chance, table_size));
+  if (!out.isolability.empty())
+    say(fmt::format("can't be told apart well, at {:.0f} noise units:", table_size));
+  for (const auto &line : isolability_lines(out.isolability)) say("  " + line);
   for (const auto &name : out.hidden) say("can't be seen by these tests at all: " + name);
   if (out.isolability.empty()) say("all effects that these tests see can be told apart");
 

@@ -21,6 +21,7 @@
 
 #include "diagnose/cross_gap.h"
 #include "diagnose/diagnose.h"
+#include "diagnose/isolability.h"
 #include "diagnose/study_evidence.h"
 #include "diagnose/study_model.h"
 
@@ -43,11 +44,6 @@ struct SeriesGap {
   bool held_out = false;
   double before = 0, after = 0;
   int rows = 0;
-};
-
-struct Confusable {
-  std::string first, second;
-  double cosine = 0, chance = 0;  // at ten noise units
 };
 
 struct ShownSeries {

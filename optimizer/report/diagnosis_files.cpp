@@ -185,9 +185,7 @@ std::string diagnosis_text(const Study &study, const StudyDiagnosis &d) {
   }
   out += "\ncan't be told apart well (at the fitted point, from no residual; ten noise units)\n";
   if (d.isolability.empty()) out += "  none\n";
-  for (const auto &pair : d.isolability)
-    out += fmt::format("  {} / {}: cosine {:.2f}, confused {:.0f} %\n", pair.first, pair.second,
-                       pair.cosine, 100 * pair.chance);
+  for (const auto &line : isolability_lines(d.isolability)) out += "  " + line + "\n";
   for (const auto &name : d.hidden) out += "  " + name + ": not seen by these tests\n";
   out +=
       "  scatter between specimens is no row: what only widens it (scatter of strength) isn't seen\n";
