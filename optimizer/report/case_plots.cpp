@@ -49,17 +49,16 @@ PlotPanel panel_of(const std::string &test, const std::vector<const Line *> &lin
                    const std::vector<std::string> &cases, std::vector<bool> &named) {
   static const std::array<const char *, 5> colours = {"series-1", "series-2", "series-3",
                                                       "series-4", "ink"};
-  const double force = largest(lines, &Line::force), way = largest(lines, &Line::way);
-  const double per_force = force < 1e3 ? 1 : force < 1e6 ? 1e-3 : 1e-6;
-  const double per_way = way < 1e-4 ? 1e6 : 1e3;
+  const AxisUnit force = force_unit(largest(lines, &Line::force)),
+                 way = way_unit(largest(lines, &Line::way));
   PlotPanel panel;
-  panel.x.label = fmt::format("{}: displacement ({})", test, per_way > 1e3 ? "µm" : "mm");
-  panel.y.label = fmt::format("force ({})", force < 1e3 ? "N" : force < 1e6 ? "kN" : "MN");
+  panel.x.label = fmt::format("{}: displacement ({})", test, way.name);
+  panel.y.label = fmt::format("force ({})", force.name);
   panel.x.from_zero = panel.y.from_zero = true;
   for (const Line *line : lines) {
     PlotSeries series;
     series.x = line->way, series.y = line->force;
-    scale(series.x, per_way), scale(series.y, per_force);
+    scale(series.x, 1 / way.factor), scale(series.y, 1 / force.factor);
     thin_out(series.x, series.y, most_points);
     series.colour = colours[line->of_case % colours.size()];
     series.look = line->of_case < colours.size() ? Look::line : Look::dashed;

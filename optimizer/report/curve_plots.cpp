@@ -15,11 +15,6 @@ namespace {
 constexpr std::size_t most_points = 1500;
 constexpr double pi = 3.14159265358979323846;
 
-// A unit whose numbers are short for values up to `largest`.
-struct AxisUnit {
-  const char *name;
-  double factor;
-};
 AxisUnit suited(double largest, std::initializer_list<AxisUnit> units) {
   AxisUnit best = *units.begin();
   for (const AxisUnit &unit : units)
@@ -161,9 +156,8 @@ Plot force_displacement(const Curve &curve, const ReportRunFiles &run,
                         const std::vector<ReportMeasuredCurve> &measured) {
   const std::vector<double> force = platen_force(curve);
   const std::vector<double> &way = curve.column("displacement");
-  const AxisUnit unit = suited(largest(force), {{"N", 1}, {"kN", 1e3}, {"MN", 1e6}});
-  const AxisUnit length = suited(largest(way), {{"um", 1e-6}, {"mm", 1e-4}});
-  const double to_axis = length.name[0] == 'u' ? 1e6 : 1e3;
+  const AxisUnit unit = force_unit(largest(force)), length = way_unit(largest(way));
+  const double to_axis = 1 / length.factor;
   const std::vector<double> x = scaled(way, to_axis), y = scaled(force, 1 / unit.factor);
   const auto [low, high] = span_of(x);
 
@@ -172,7 +166,7 @@ Plot force_displacement(const Curve &curve, const ReportRunFiles &run,
   // `displacement` is the closing where two platens close, and the drive's way in the other tests
   const bool closes = run.kind == "brazilian" || run.kind == "uniaxial_compression" || run.kind == "creep";
   panel.x.label = std::string(closes ? "closing of the platens (" : "displacement (") +
-                  (to_axis > 1e3 ? "µm" : "mm") + ")";
+                  length.name + ")";
   panel.y.label = std::string("force (") + unit.name + ")";
   panel.y.from_zero = true;
   const auto diameter = run.variables.find("diameter"), thickness = run.variables.find("thickness");
@@ -211,6 +205,14 @@ Plot force_displacement(const Curve &curve, const ReportRunFiles &run,
 }
 
 }  // namespace
+
+AxisUnit force_unit(double largest) {
+  return suited(largest, {{"N", 1}, {"kN", 1e3}, {"MN", 1e6}});
+}
+
+AxisUnit way_unit(double largest) {
+  return largest < 1e-4 ? AxisUnit{"µm", 1e-6} : AxisUnit{"mm", 1e-3};
+}
 
 bool is_stress_strain(const Curve &curve) {
   return curve.has("axial_stress") && curve.has("strain_axial");

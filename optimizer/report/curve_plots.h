@@ -19,6 +19,14 @@
 
 namespace bondlab {
 
+// A unit whose numbers are short for values up to `largest`, SI.
+struct AxisUnit {
+  const char *name;
+  double factor;  // in SI
+};
+AxisUnit force_unit(double largest);
+AxisUnit way_unit(double largest);
+
 bool is_stress_strain(const Curve &curve);
 
 // Mean of the two platens' forces, N.
