@@ -179,6 +179,18 @@ TEST(UniaxialDeck, confining_pressure_in_3d) {
 
 // ---- the loading programme ----
 
+// First and last point of a phase; 0 and 0 where it never came.
+std::pair<std::size_t, std::size_t> points_of(const Table &t, double wanted) {
+  const auto phase = t.column("phase");
+  std::size_t first = 0, last = 0;
+  for (std::size_t k = 0; k < phase.size(); ++k)
+    if (phase[k] == wanted) {
+      if (!first) first = k;
+      last = k;
+    }
+  return {first, last};
+}
+
 TEST(UniaxialDeck, unloads_and_reloads_along_the_same_line_while_nothing_breaks) {
   EngineFolder folder;
   const Table t = rectangle(
@@ -216,13 +228,8 @@ TEST(UniaxialDeck, holds_a_displacement_or_a_load) {
     const Table t = rectangle(folder, {kStrong, kTough, {"max_strain", "0.002"},
                                        {creep ? "creep_time" : "relax_time", "2e-4"}});
     const auto stress = t.column("axial_stress"), way = t.column("displacement"),
-               time = t.column("time"), phase = t.column("phase");
-    std::size_t first = 0, last = 0;
-    for (std::size_t k = 0; k < phase.size(); ++k)
-      if (phase[k] == (creep ? 3 : 2)) {
-        if (!first) first = k;
-        last = k;
-      }
+               time = t.column("time");
+    const auto [first, last] = points_of(t, creep ? 3 : 2);
     ASSERT_GT(first, 0u);
     EXPECT_NEAR(time[last] - time[first], 2e-4, 2e-5);  // within the sampling
     // elastic: nothing relaxes and nothing creeps; what rang at the stop is damped out by then
@@ -240,19 +247,14 @@ TEST(UniaxialDeck, creeps_under_a_held_load_in_proportion_to_the_creep_rate) {
     EngineFolder folder;
     const Table t = rectangle(folder, {kStrong, kTough, {"max_strain", "0.003"}, {"creep_time", "2e-4"},
                                        {"creep_rate", rate}, {"bond_contact", "no"}});
-    const auto way = t.column("displacement"), phase = t.column("phase");
-    std::size_t first = 0, last = 0;
-    for (std::size_t k = 0; k < phase.size(); ++k)
-      if (phase[k] == 3) {
-        if (!first) first = k;
-        last = k;
-      }
+    const auto way = t.column("displacement");
+    const auto [first, last] = points_of(t, 3);
     EXPECT_GT(first, 0u);
     return way[last] - way[first + (last - first) / 3];  // behind the servo's start
   };
   const double none = crept("0"), slow = crept("0.05") - none, fast = crept("0.1") - none;
   EXPECT_GT(slow, 10 * std::abs(none));
-  EXPECT_NEAR(fast / slow, 2.0, 0.1);
+  EXPECT_NEAR(fast / slow, 2.0, 0.1);  // 2.05 here, 1.97 at rates of 0.02 and 0.04: the servo swings
 }
 
 TEST(UniaxialDeck, steps_the_rate_at_its_strain) {
