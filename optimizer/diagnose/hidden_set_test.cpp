@@ -29,7 +29,7 @@ TEST(HiddenSet, IsTheOneThatWasFrozen) {
   EXPECT_EQ(sha256_file(second),
             "14585caf8ad00b2956dfae3911ba52bca0e1982d1f467b771942623445446486");
   EXPECT_EQ(sha256_file(third), "9ec9b213cd67f8430d870b1426efd1c00397ab0e710659036e54196b42a4867b");
-  EXPECT_EQ(sha256_file(read_hidden_set(frozen).laboratory), 
+  EXPECT_EQ(sha256_file(read_hidden_set(frozen).laboratory),
             "66a6bb0d4990e9cd37d87e97003c98d0382ea8b55287fdf45551d4d12c47c8c5");
   EXPECT_EQ(sha256_file(read_hidden_set(second).laboratory),
             "0db8ac5d1b36776817e0d134b1049da6a7bcf986a55e62b0327a204c7d494f18");

@@ -16,7 +16,6 @@
 
 namespace bondlab {
 
-
 // Fills targets, parameters, packings, best outcomes, findings, verdict. `noise` has one entry a
 // target of the study.
 void summarise(const Evaluator &evaluator, const FitEntry &entry, const FitProblem &problem,

@@ -81,7 +81,7 @@ double creep_rate(const Curve &curve, const ResponseContext &) {
   return fit_line(finite_column(curve, "time"), finite_column(curve, "strain_axial"), end).slope;
 }
 
-double hold_imbalance(const Curve &curve, const ResponseContext &) {
+double hold_platen_imbalance(const Curve &curve, const ResponseContext &) {
   return relative_imbalance(finite_column(curve, "force_top"), finite_column(curve, "force_bottom"),
                             end_of_the_hold(curve));
 }

@@ -23,7 +23,7 @@ double relaxed_share(const Curve &curve, const ResponseContext &context);  ///< 
 double creep_rate(const Curve &curve, const ResponseContext &context);     ///< 1/s
 /// Quality: largest difference of the two platens' forces in the last third of the kept load, or of
 /// the hold where no load is kept, as a share of their mean.
-double hold_imbalance(const Curve &curve, const ResponseContext &context);
+double hold_platen_imbalance(const Curve &curve, const ResponseContext &context);
 /// Quality: largest kinetic over strain energy there.
 double hold_kinetic_share(const Curve &curve, const ResponseContext &context);
 

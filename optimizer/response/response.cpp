@@ -43,7 +43,7 @@ const std::map<std::string, Function> &registry() {
       {"impact.passing_share", impact::passing_share},
       {"impact.peak_force", impact::peak_force},
       {"programme.creep_rate", programme::creep_rate},
-      {"programme.hold_imbalance", programme::hold_imbalance},
+      {"programme.hold_platen_imbalance", programme::hold_platen_imbalance},
       {"programme.hold_kinetic_share", programme::hold_kinetic_share},
       {"programme.relaxed_share", programme::relaxed_share},
       {"programme.unloading_modulus", programme::unloading_modulus},
@@ -77,7 +77,7 @@ const std::multimap<std::string, std::string> &quality_registry() {
   static const std::multimap<std::string, std::string> functions = {
       {"cantilever", "kinetic_share"},
       {"cantilever", "platen_imbalance"},
-      {"programme", "hold_imbalance"},
+      {"programme", "hold_platen_imbalance"},
       {"programme", "hold_kinetic_share"},
       {"shear", "kinetic_share"},
       {"shear", "platen_imbalance"},

@@ -33,7 +33,7 @@ std::map<std::string, double> run_quality(const TestEntry &test, const ForwardOu
 std::string quality_words(const std::string &figure) {
   if (figure == "platen_imbalance") return "difference of the forces at the two ends";
   if (figure == "kinetic_share") return "kinetic over strain energy";
-  if (figure == "hold_imbalance") return "difference of the forces at the two ends, hold";
+  if (figure == "hold_platen_imbalance") return "difference of the forces at the two ends, hold";
   if (figure == "hold_kinetic_share") return "kinetic over strain energy, hold";
   if (figure == "first_cracks") return "first cracks from the centre over the radius";
   return "";
@@ -42,7 +42,7 @@ std::string quality_words(const std::string &figure) {
 std::string quality_warning(const std::string &figure, double value) {
   const bool hold = figure.rfind("hold_", 0) == 0;
   const std::string what = hold ? figure.substr(5) : figure;
-  if (what == "platen_imbalance" || what == "imbalance") {
+  if (what == "platen_imbalance") {
     if (value <= noticeable_imbalance) return "";
     return fmt::format(
         "the forces on the two platens differ by up to {:.0f} % {}: the loading is not "

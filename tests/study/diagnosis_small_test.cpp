@@ -3,7 +3,8 @@
 // Job: the missing-effect workflow, reduced, from the command line: `bondlab trial` hides four cases
 // of tests/data/hidden_small in engine runs and judges what it names; `bondlab diagnose` then reads
 // one of these data folders without its sealed truth, must say the same, write the model that it
-// proposes and find nothing missing in that. Units: as in trial.json and diagnosis.json. Failure: the folder is left and named.
+// proposes and find nothing missing in that. Units: as in trial.json and diagnosis.json. Failure: the
+// folder is left and named.
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>
