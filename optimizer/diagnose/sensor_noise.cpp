@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "base/random.h"
 
@@ -17,26 +19,33 @@ constexpr int draws = 12;  // a curve
 
 }  // namespace
 
-double white_noise(const std::vector<double> &column) {
-  if (column.size() < least_points) return 0;
-  std::vector<double> second;
-  for (std::size_t i = 1; i + 1 < column.size(); ++i)
-    second.push_back(column[i - 1] - 2 * column[i] + column[i + 1]);
-  std::vector<double> sizes;
-  for (const double d : second) sizes.push_back(std::abs(d));
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  const double sd = *middle / (median_of_normal * std::sqrt(6.0));
-  if (!(sd > 0)) return 0;
-  // A jump is no noise: it counts no more than the largest noise.
-  double product = 0, square = 0, before = 0;
-  for (std::size_t i = 0; i < second.size(); ++i) {
-    const double most = 3 * std::sqrt(6.0) * sd, now = std::clamp(second[i], -most, most);
-    if (i > 0) product += before * now;
-    square += now * now;
-    before = now;
+std::vector<double> white_noise(const std::vector<std::vector<double>> &columns) {
+  std::vector<double> out(columns.size(), 0);
+  double product = 0, square = 0;  // of all together: one curve's correlation is uncertain by 0.1
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const auto &column = columns[k];
+    if (column.size() < least_points) continue;
+    std::vector<double> second;
+    for (std::size_t i = 1; i + 1 < column.size(); ++i)
+      second.push_back(column[i - 1] - 2 * column[i] + column[i + 1]);
+    std::vector<double> sizes;
+    for (const double d : second) sizes.push_back(std::abs(d));
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    const double sd = *middle / (median_of_normal * std::sqrt(6.0));
+    if (!(sd > 0)) continue;
+    out[k] = sd;
+    // A jump is no noise: pairs with one tell nothing.
+    const double most = 2.5 * std::sqrt(6.0) * sd;
+    for (std::size_t i = 1; i < second.size(); ++i) {
+      const double before = second[i - 1] / sd, now = second[i] / sd;
+      if (std::max(std::abs(before), std::abs(now)) * sd > most) continue;
+      product += before * now;
+      square += 0.5 * (before * before + now * now);
+    }
   }
-  return product < like_noise * square ? sd : 0;
+  if (square > 0 && product < like_noise * square) return out;
+  return std::vector<double>(columns.size(), 0);
 }
 
 Eigen::VectorXd sensor_variance(const std::vector<Curve> &replicates,
@@ -47,9 +56,18 @@ Eigen::VectorXd sensor_variance(const std::vector<Curve> &replicates,
   const auto rows = static_cast<Eigen::Index>(quantities.size());
   Eigen::VectorXd out = Eigen::VectorXd::Zero(rows), counted = out;
   RandomStream random(seed, 51);
-  for (const auto &replicate : replicates) {
+  std::map<std::string, std::vector<double>> noise;  // sd by channel, one a replicate
+  for (const auto &name : replicates.front().names) {
+    std::vector<std::vector<double>> columns;
+    for (const auto &replicate : replicates)
+      columns.push_back(replicate.has(name) ? replicate.column(name) : std::vector<double>());
+    noise[name] = white_noise(columns);
+  }
+  for (std::size_t r = 0; r < replicates.size(); ++r) {
+    const Curve &replicate = replicates[r];
     std::vector<double> sd;
-    for (const auto &column : replicate.columns) sd.push_back(white_noise(column));
+    for (const auto &name : replicate.names)
+      sd.push_back(noise.count(name) > 0 ? noise.at(name)[r] : 0);
     if (std::all_of(sd.begin(), sd.end(), [](double s) { return s == 0; })) {
       counted.array() += 1;
       continue;
