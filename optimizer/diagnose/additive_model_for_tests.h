@@ -27,7 +27,7 @@ class AdditiveModel : public Prober {
     for (const auto &point : batch) out.push_back(added(point) + shift_);
     return out;
   }
-  std::unique_ptr<Prober> anchored(const ModelPoint &point) override {
+  std::unique_ptr<Prober> anchored(const ModelPoint &point, Anchoring) override {
     if (!may_anchor_) return nullptr;
     auto out = std::make_unique<AdditiveModel>(exact_, centre_, true);
     out->shift_ = exact_.probe({point}).front() - added(point);

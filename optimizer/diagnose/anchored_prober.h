@@ -32,8 +32,8 @@ class AnchoredProber : public Prober {
   }
   std::vector<Eigen::VectorXd> probe(const std::vector<ModelPoint> &batch) override;
   Eigen::MatrixXd uncertainty(const ModelPoint &point) override;
-  std::unique_ptr<Prober> anchored(const ModelPoint &point) override {
-    return whole_.anchored(point);
+  std::unique_ptr<Prober> anchored(const ModelPoint &point, Anchoring how) override {
+    return whole_.anchored(point, how);
   }
 
  private:

@@ -21,6 +21,7 @@ constexpr int most_anchors = 2;                    // an explanation
 constexpr double worth_checking = 20;              // behind the best in deviance
 constexpr double settled = 2;                      // of chi squared, gained by the last anchor
 constexpr double hopeless = 2, hopeless_pair = 4;  // times what chance leaves
+constexpr double hopeless_roughly = 1.3;           // the same, by few runs of the engine
 
 // One way to explain the data: a single effect or a pair.
 struct Explanation {
@@ -30,6 +31,12 @@ struct Explanation {
   bool complete = false;             // nothing is left
   std::vector<Spot> remains;
 };
+
+// One whose change is not known as well is less likely for that alone; where it leaves nothing, and
+// no more than the best does, the data have not spoken against it.
+bool leaves_no_more(const Explanation &rival, const Refit &best) {
+  return rival.complete && rival.fit.admissible() && rival.fit.chi2 <= best.chi2;
+}
 
 class Work {
  public:
@@ -137,19 +144,22 @@ void Work::judge(Explanation &out, const Linearisation &model) {
 
 // Where the engine itself has an explanation: the model is made right there, and fitted again.
 void Work::check(Explanation &out) {
-  for (int count = 0; count < most_anchors; ++count) {
-    const ModelPoint anchor = out.fit.point;
-    const auto near = prober_.anchored(anchor);
-    if (!near) return;
+  // Chi squared gained by the fit there.
+  const auto made_right = [&](const ModelPoint &anchor, Anchoring how) {
+    const auto near = prober_.anchored(anchor, how);
+    if (!near) return 0.0;
     const Whitening whitening(evidence_, near->uncertainty(anchor));
     const Linearisation there = linearise(*near, whitening, anchor);
     const Refit fit = refit(*near, whitening, setup_.catalogue, there, out.fit.effects);
-    if (!fit.ok) return;
+    if (!fit.ok) return 0.0;
     out.fit = fit;
     out.anchor = anchor;
     judge(out, there);
-    if (there.residual.squaredNorm() - fit.chi2 < settled) return;
-  }
+    return there.residual.squaredNorm() - fit.chi2;
+  };
+  for (int count = 0; count < most_anchors; ++count)
+    if (made_right(out.fit.point, Anchoring::rough) < settled) break;
+  if (out.anchor && out.left < hopeless_roughly) made_right(*out.anchor, Anchoring::whole);
 }
 
 // Those near the best, the best first, and not those that leave far too much.
@@ -210,9 +220,10 @@ void Work::name_single(const std::vector<Explanation> &singles, std::size_t best
   for (std::size_t i = 0; i < singles.size(); ++i) {
     if (i == best || !singles[i].fit.ok) continue;
     const double behind = singles[i].fit.deviance - winner.deviance;
-    const bool rival = behind < margin_needed ||
-                       (out_.stability < stable && wins_[singles[i].fit.effects.front()] > 0.05);
-    if (rival && out_.before.deviance - singles[i].fit.deviance > 0) {
+    const bool likely = behind < margin_needed ||
+                        (out_.stability < stable && wins_[singles[i].fit.effects.front()] > 0.05);
+    if (leaves_no_more(singles[i], winner) ||
+        (likely && out_.before.deviance - singles[i].fit.deviance > 0)) {
       out_.effects.push_back(named(singles[i].fit, 0));
       out_.effects.back().margin = behind;
     } else {
@@ -252,7 +263,7 @@ bool Work::name_pair(const ScoreTable &scores, const std::vector<Explanation> &s
   for (const auto &e : explanations) {
     if (&e == best || !e.fit.admissible()) continue;
     const double behind = e.fit.deviance - best->fit.deviance;
-    if (behind < margin_needed)
+    if (behind < margin_needed || leaves_no_more(e, best->fit))
       rivals.push_back(&e);
     else
       margin = std::min(margin, behind);

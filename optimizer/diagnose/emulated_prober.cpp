@@ -8,12 +8,15 @@
 
 #include "diagnose/anchored_prober.h"
 #include "diagnose/covariance.h"
+#include "diagnose/parameter_step.h"
 
 namespace bondlab::diagnose {
 
 namespace {
 
 constexpr std::size_t least_anchors = 4;
+constexpr int anchor_runs = 100;
+constexpr double as_good = 0.2;  // in the logarithm of a step
 constexpr double unknown_variance = 9;
 constexpr double least_share = 0.2;              // of a step that a bound leaves
 constexpr double covered = 2, longest_move = 4;  // in steps
@@ -23,6 +26,12 @@ std::vector<int> first(int count) {
   std::vector<int> out(static_cast<std::size_t>(count));
   std::iota(out.begin(), out.end(), 0);
   return out;
+}
+
+// As many as a hundred runs are, and no fewer than effects are switched on on.
+int most_anchors(const EmulatorPlan &plan, const ForwardProber &engine) {
+  const int affordable = anchor_runs / std::max(1, static_cast<int>(engine.series().size()));
+  return std::min(plan.anchors, std::max(affordable, plan.differences));
 }
 
 }  // namespace
@@ -80,6 +89,48 @@ std::vector<double> EmulatedProber::knots_of(const EffectEntry &entry) const {
   return knots;
 }
 
+std::vector<double> EmulatedProber::knots_up_and_down(std::size_t parameter, double step,
+                                                      std::vector<ModelPoint> &points) const {
+  std::vector<double> knots;
+  for (const double sign : {-1.0, 1.0}) {
+    const ModelPoint there = moved(parameter, sign * step);
+    const double x = coordinate(parameter, there);
+    if (std::abs(x) < least_share * step) continue;
+    knots.push_back(x);
+    points.push_back(there);
+  }
+  return knots;
+}
+
+// From the centre, which has been run.
+std::vector<Eigen::MatrixXd> EmulatedProber::changes_at(const std::vector<ModelPoint> &points,
+                                                        const std::vector<int> &packings) {
+  engine_.prepare(points, packings);
+  const Eigen::MatrixXd own = as_run_.topRows(static_cast<Eigen::Index>(packings.size()));
+  std::vector<Eigen::MatrixXd> out;
+  for (const auto &point : points) out.push_back(engine_.by_packing(point, packings) - own);
+  return out;
+}
+
+std::vector<double> EmulatedProber::steps_from_noise(const EmulatorPlan &plan) {
+  std::vector<ModelPoint> points;
+  std::vector<std::vector<double>> knots;
+  for (std::size_t i = 0; i < engine_.parameters(); ++i)
+    knots.push_back(knots_up_and_down(i, plan.pilot, points));
+  const auto changes = changes_at(points, effect_packings_);
+  std::vector<double> out;
+  auto next = changes.begin();
+  for (const auto &own : knots) {
+    const auto end = next + static_cast<std::ptrdiff_t>(own.size());
+    const double step = parameter_step_from_noise(own, {next, end}, scatter_,
+                                                  static_cast<double>(packings_.size()));
+    // The pilot's own runs serve where they are as good.
+    out.push_back(std::abs(std::log(step / plan.pilot)) < as_good ? plan.pilot : step);
+    next = end;
+  }
+  return out;
+}
+
 EmulatedProber::EmulatedProber(ForwardProber &engine, const std::vector<EffectEntry> &catalogue,
                                const ModelPoint &centre, const EmulatorPlan &plan,
                                bool with_effects)
@@ -87,23 +138,13 @@ EmulatedProber::EmulatedProber(ForwardProber &engine, const std::vector<EffectEn
       centre_(centre),
       packings_(first(std::min(std::max(plan.parameters, plan.differences), plan.centre))),
       effect_packings_(first(std::min(plan.differences, plan.centre))),
-      anchor_packings_(first(std::min(plan.anchors, static_cast<int>(packings_.size())))),
-      step_(plan.step) {
-  std::vector<ModelPoint> points, effect_points;
-  for (std::size_t i = 0; i < engine.parameters(); ++i) {
-    parameter_knots_.emplace_back();
-    for (const double sign : {-1.0, 1.0}) {
-      const ModelPoint there = moved(i, sign * plan.step);
-      const double x = coordinate(i, there);  // less than the step at a bound
-      if (std::abs(x) < least_share * plan.step) continue;
-      parameter_knots_.back().push_back(x);
-      points.push_back(there);
-    }
-  }
+      anchor_packings_(
+          first(std::min(most_anchors(plan, engine), static_cast<int>(packings_.size())))) {
   const auto planned = [&](std::size_t k) {
     return plan.effects.empty() ||
            std::find(plan.effects.begin(), plan.effects.end(), k) != plan.effects.end();
   };
+  std::vector<ModelPoint> effect_points;
   if (with_effects)
     for (std::size_t k = 0; k < engine.effects(); ++k)
       for (const double knot : planned(k) ? knots_of(catalogue[k]) : std::vector<double>()) {
@@ -115,25 +156,29 @@ EmulatedProber::EmulatedProber(ForwardProber &engine, const std::vector<EffectEn
   rows_ = with_means_where_lacking(as_run_);
   mean_ = rows_.colwise().mean();
   scatter_ = variances(rows_);
-  engine.prepare(points, packings_);
-  engine.prepare(effect_points, effect_packings_);
-  const auto take = [&](const std::vector<ModelPoint> &list, const std::vector<int> &packings,
-                        std::size_t &at, std::size_t count) {
-    const Eigen::MatrixXd own = as_run_.topRows(static_cast<Eigen::Index>(packings.size()));
-    std::vector<Eigen::MatrixXd> out;
-    for (std::size_t i = 0; i < count; ++i)
-      out.push_back(engine.by_packing(list[at++], packings) - own);
-    return out;
-  };
-  std::size_t at = 0, at_effect = 0;
+  steps_ = plan.steps.empty() ? steps_from_noise(plan) : plan.steps;
+  std::vector<ModelPoint> points;
+  std::vector<std::vector<double>> knots;
   for (std::size_t i = 0; i < engine.parameters(); ++i)
-    parameters_.push_back(
-        way_through(parameter_knots_[i], take(points, packings_, at, parameter_knots_[i].size())));
+    knots.push_back(knots_up_and_down(i, steps_[i], points));
+  const auto changes = changes_at(points, packings_);
+  auto next = changes.begin();
+  for (const auto &own : knots) {
+    const auto end = next + static_cast<std::ptrdiff_t>(own.size());
+    parameters_.push_back(way_through(own, {next, end}));
+    next = end;
+  }
+  const auto effect_changes = changes_at(effect_points, effect_packings_);
+  next = effect_changes.begin();
   for (std::size_t k = 0; k < engine.effects() && with_effects; ++k) {
-    const auto knots = knots_of(catalogue[k]);
-    effects_.push_back(planned(k) ? effect_way(knots, take(effect_points, effect_packings_,
-                                                           at_effect, knots.size()))
-                                  : dead_way());
+    if (!planned(k)) {
+      effects_.push_back(dead_way());
+      continue;
+    }
+    const auto own = knots_of(catalogue[k]);
+    const auto end = next + static_cast<std::ptrdiff_t>(own.size());
+    effects_.push_back(effect_way(own, {next, end}));
+    next = end;
   }
 }
 
@@ -159,7 +204,8 @@ ModelPoint EmulatedProber::moved(std::size_t parameter, double x) const {
 
 double EmulatedProber::parameter_step(std::size_t parameter) const {
   const auto k = static_cast<Eigen::Index>(parameter);
-  return std::clamp(std::abs(moved(parameter, 0.5 * step_).z(k) - centre_.z(k)), 0.01, 1.0);
+  return std::clamp(std::abs(moved(parameter, 0.5 * steps_[parameter]).z(k) - centre_.z(k)), 0.01,
+                    1.0);
 }
 
 Eigen::MatrixXd EmulatedProber::changes(const ModelPoint &point) const {
@@ -211,9 +257,11 @@ Eigen::MatrixXd EmulatedProber::covariance_of(const Eigen::MatrixXd &changes, do
   return out;
 }
 
-std::unique_ptr<Prober> EmulatedProber::anchored(const ModelPoint &point) {
-  engine_.prepare({point}, anchor_packings_);
-  const Eigen::MatrixXd there = engine_.by_packing(point, anchor_packings_);
+std::unique_ptr<Prober> EmulatedProber::anchored(const ModelPoint &point, Anchoring how) {
+  const auto few = std::min(effect_packings_.size(), anchor_packings_.size());
+  const auto &packings = how == Anchoring::whole ? anchor_packings_ : first(static_cast<int>(few));
+  engine_.prepare({point}, packings);
+  const Eigen::MatrixXd there = engine_.by_packing(point, packings);
   std::vector<Eigen::Index> whole;  // packings that lack no row
   for (Eigen::Index p = 0; p < there.rows(); ++p)
     if ((there - as_run_.topRows(there.rows())).row(p).allFinite()) whole.push_back(p);
@@ -245,14 +293,15 @@ Eigen::MatrixXd EmulatedProber::uncertainty(const ModelPoint &point) {
 
 bool EmulatedProber::covers(const ModelPoint &point) const {
   for (std::size_t i = 0; i < parameters_.size(); ++i)
-    if (std::abs(coordinate(i, point)) > covered * step_) return false;
+    if (std::abs(coordinate(i, point)) > covered * steps_[i]) return false;
   return true;
 }
 
 ModelPoint EmulatedProber::towards(const ModelPoint &point) const {
   ModelPoint out = centre_;
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
-    const double x = std::clamp(coordinate(i, point), -longest_move * step_, longest_move * step_);
+    const double most = longest_move * steps_[i];
+    const double x = std::clamp(coordinate(i, point), -most, most);
     const auto k = static_cast<Eigen::Index>(i);
     out.z(k) = moved(i, x).z(k);
   }
@@ -264,19 +313,11 @@ void EmulatedProber::renew(std::size_t effect, const EffectEntry &entry) {
   std::vector<ModelPoint> points(knots.size(), centre_);
   for (std::size_t i = 0; i < knots.size(); ++i)
     points[i].amplitude(static_cast<Eigen::Index>(effect)) = knots[i];
-  engine_.prepare(points, effect_packings_);
-  const Eigen::MatrixXd own = as_run_.topRows(static_cast<Eigen::Index>(effect_packings_.size()));
-  std::vector<Eigen::MatrixXd> changes;
-  for (const auto &point : points)
-    changes.push_back(engine_.by_packing(point, effect_packings_) - own);
-  effects_[effect] = effect_way(knots, changes);
+  effects_[effect] = effect_way(knots, changes_at(points, effect_packings_));
 }
 
 Eigen::MatrixXd EmulatedProber::engine_changes(const ModelPoint &point) {
-  engine_.prepare({point}, effect_packings_);
-  Eigen::MatrixXd out =
-      with_means_where_lacking(engine_.by_packing(point, effect_packings_) -
-                               as_run_.topRows(static_cast<Eigen::Index>(effect_packings_.size())));
+  Eigen::MatrixXd out = with_means_where_lacking(changes_at({point}, effect_packings_).front());
   for (Eigen::Index row = 0; row < out.cols(); ++row)
     if (!out.col(row).allFinite()) out.col(row).setZero();
   return out;
@@ -293,14 +334,10 @@ bool EmulatedProber::knows(std::size_t effect, double amplitude) const {
 }
 
 std::vector<Eigen::VectorXd> EmulatedProber::confirm(const std::vector<ModelPoint> &points) {
-  engine_.prepare(points, packings_);
-  const Eigen::MatrixXd own = as_run_.topRows(static_cast<Eigen::Index>(packings_.size()));
   std::vector<Eigen::VectorXd> out;
-  for (const auto &point : points) {
-    const Eigen::MatrixXd there = engine_.by_packing(point, packings_);
-    const Eigen::MatrixXd change = with_means_where_lacking(there - own);
-    out.push_back(mean_ + Eigen::VectorXd(change.colwise().mean().transpose()));
-  }
+  for (const auto &change : changes_at(points, packings_))
+    out.push_back(mean_ +
+                  Eigen::VectorXd(with_means_where_lacking(change).colwise().mean().transpose()));
   return out;
 }
 

@@ -2,7 +2,8 @@
 //
 // Job: a Prober that knows how well it knows: polynomials over forward runs about one point.
 // Method: at the centre the rows are the mean over many packings. About it every fitted parameter
-//   is stepped up and down on some of these packings and every effect switched on at two sizes, on
+//   is stepped up and down on some of these packings, as far as their noise asks for
+//   (parameter_step.h), and every effect switched on at two sizes, on
 //   fewer (common random numbers: a packing is compared with itself). Every fit needs the
 //   parameters' changes and few effects; the packings that an effect lacks stand at its mean, with
 //   its scatter widened so that the covariance of the mean stays what it is. The change along one
@@ -36,11 +37,13 @@
 namespace bondlab::diagnose {
 
 struct EmulatorPlan {
-  int centre = 16;      // packings of the centre's mean
-  int differences = 6;  // of them, those that effects are switched on on; at least 4
-  double step = 0.12;   // of parameters, in x
+  int centre = 16;                 // packings of the centre's mean
+  int differences = 6;             // of them, those that effects are switched on on; at least 4
+  double pilot = 0.12;             // step of parameters, in x, whose noise tells the steps to take
+  std::vector<double> steps = {};  // of parameters, in x; empty: from that noise
   int parameters = 16;  // packings that parameters are stepped on, no fewer than `differences`
-  int anchors = 16;     // packings that the engine is run on where a fit is checked
+  int anchors = 16;     // packings that the engine is run on where a fit is checked, at most;
+                        // fewer where they would be more than a hundred runs
   std::vector<std::size_t> effects = {};  // switched on; empty: all of the catalogue
 };
 
@@ -57,6 +60,8 @@ class EmulatedProber : public Prober {
   Eigen::MatrixXd uncertainty(const ModelPoint &point) override;
 
   const ModelPoint &centre() const { return centre_; }
+  // Of the parameters, in x: a plan with them needs no pilot.
+  const std::vector<double> &steps() const { return steps_; }
   const Eigen::MatrixXd &centre_rows() const { return rows_; }  // packings x rows
   // The change from the centre on each packing alone: packings x rows, nothing shrunk. Their mean
   // is the mean change, and their covariance over their number that of the mean.
@@ -68,7 +73,7 @@ class EmulatedProber : public Prober {
   Eigen::MatrixXd covariance_of(const Eigen::MatrixXd &changes, double factor) const;
   // The emulator shifted to the engine's own rows at a point (anchored_prober.h); null when the
   // engine has them on fewer than four packings.
-  std::unique_ptr<Prober> anchored(const ModelPoint &point) override;
+  std::unique_ptr<Prober> anchored(const ModelPoint &point, Anchoring how) override;
   // Whether a fitted point's parameters lie within twice the steps that were made.
   bool covers(const ModelPoint &point) const;
   // The centre moved towards a point, as far as the steps can be trusted.
@@ -99,8 +104,13 @@ class EmulatedProber : public Prober {
   std::vector<int> anchor_packings_;                        // among those
   ModelPoint moved(std::size_t parameter, double x) const;  // of the centre; cut at its bounds
   double coordinate(std::size_t parameter, const ModelPoint &point) const;
-  std::vector<std::vector<double>> parameter_knots_;  // x
-  double step_;
+  // Knots up and down, less than the step at a bound, and the points there.
+  std::vector<double> knots_up_and_down(std::size_t parameter, double step,
+                                        std::vector<ModelPoint> &points) const;
+  std::vector<double> steps_from_noise(const EmulatorPlan &plan);
+  std::vector<Eigen::MatrixXd> changes_at(const std::vector<ModelPoint> &points,
+                                          const std::vector<int> &packings);
+  std::vector<double> steps_;
   Eigen::MatrixXd as_run_,
       rows_;  // of the centre; where a packing lacks a row: NaN, the others' mean
   Eigen::VectorXd mean_, scatter_;  // of the centre: mean, variance over packings

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "diagnose/row_selection.h"
+#include "diagnose/parameter_step.h"
 #include "diagnose/straight_model_for_tests.h"
 
 namespace bondlab::diagnose {
@@ -145,6 +146,35 @@ TEST_F(Emulated, RenewedEffectIsTakenAtItsNewSize) {
   EXPECT_GT(rows(ucs_peak) - base(ucs_peak), 0.1);
 }
 
+TEST_F(Emulated, StepsComeFromTheNoise) {
+  plan.steps.clear();
+  const EmulatedProber quiet(engine, catalogue, engine.start(), plan, false);
+  for (const auto k : {E_c, sigma_c}) EXPECT_EQ(quiet.steps()[k], smallest_parameter_step);
+  EXPECT_EQ(quiet.steps()[kn_ks], largest_parameter_step) << "these tests don't see it";
+  model.chaos = 0.01;
+  ForwardProber noisy(study, effects, model, series, {0, 1, 2, 3, 4, 5, 6, 7});
+  const EmulatedProber emulated(noisy, catalogue, engine.start(), plan, false);
+  for (const auto k : {E_c, sigma_c}) {
+    EXPECT_GT(emulated.steps()[k], 2 * smallest_parameter_step);
+    EXPECT_LE(emulated.steps()[k], largest_parameter_step);
+  }
+  const double x = emulated.steps()[sigma_c];
+  EXPECT_TRUE(emulated.covers(scaled(sigma_c, std::exp(1.9 * x))));
+  EXPECT_FALSE(emulated.covers(scaled(sigma_c, std::exp(2.1 * x))));
+}
+
+TEST_F(Emulated, StepsGivenNeedNoPilot) {
+  const auto runs = [&] {
+    ForwardProber fresh(study, effects, model, series, {0, 1, 2, 3, 4, 5, 6, 7});
+    const EmulatedProber made(fresh, catalogue, fresh.start(), plan, false);
+    return fresh.runs();
+  };
+  const int given = runs();
+  plan.steps.clear();
+  // Three parameters up and down on six packings of two tests.
+  EXPECT_EQ(runs() - given, 3 * 2 * 6 * 2);
+}
+
 TEST_F(Emulated, CentreMovesOnlyAsFarAsStepsCanBeTrusted) {
   EmulatedProber emulated(engine, catalogue, engine.start(), plan, false);
   EXPECT_TRUE(emulated.covers(scaled(sigma_c, 1.2)));
@@ -152,8 +182,8 @@ TEST_F(Emulated, CentreMovesOnlyAsFarAsStepsCanBeTrusted) {
   const auto x = engine.physical(emulated.towards(scaled(sigma_c, 1.4)));
   EXPECT_NEAR(x[sigma_c], 1.4 * engine.physical(engine.start())[sigma_c], 1e-3 * x[sigma_c]);
   const auto far = engine.physical(emulated.towards(scaled(sigma_c, 1.7)));
-  EXPECT_NEAR(far[sigma_c] / engine.physical(engine.start())[sigma_c], std::exp(4 * plan.step),
-              1e-6);
+  EXPECT_NEAR(far[sigma_c] / engine.physical(engine.start())[sigma_c],
+              std::exp(4 * plan.steps[sigma_c]), 1e-6);
 }
 
 TEST_F(Emulated, EffectWhoseRunsFailIsDead) {
@@ -185,7 +215,7 @@ TEST_F(Emulated, PackingThatLacksARowLeavesItToTheOthers) {
   const Eigen::MatrixXd changes = emulated.engine_changes(at);
   EXPECT_NEAR(changes(2, brazilian_peak), change, 1e-9);
   // An anchor is made of the packings that have all.
-  const auto near = emulated.anchored(at);
+  const auto near = emulated.anchored(at, Anchoring::whole);
   ASSERT_NE(near, nullptr);
   EXPECT_NEAR(near->probe({at}).front()(brazilian_peak) - base(brazilian_peak), change, 1e-9);
 }

@@ -36,11 +36,10 @@ void count_parameters(const Study &study, const fs::path &folder, const StudyDia
   const auto truth = sealed_parameters(folder, study);
   for (std::size_t i = 0; i < truth.size(); ++i) {
     ++out.parameters;
-    const auto inside = [&](const std::vector<double> &x, const std::vector<double> &sd) {
-      return std::abs(x[i] - truth[i]) < 1.96 * sd[i];
-    };
-    out.inside_before += inside(result.parameters_before, result.sd_before);
-    out.inside_after += inside(result.parameters_after, result.sd_after);
+    out.off_before.push_back((result.parameters_before[i] - truth[i]) / result.sd_before[i]);
+    out.off_after.push_back((result.parameters_after[i] - truth[i]) / result.sd_after[i]);
+    out.inside_before += std::abs(out.off_before.back()) < 1.96;
+    out.inside_after += std::abs(out.off_after.back()) < 1.96;
   }
 }
 
@@ -166,6 +165,7 @@ std::vector<TrialCase> run_trial(const HiddenSet &set, const Study &laboratory,
     trial.trace = d.trace, trial.trace_alarm = d.trace_alarm;
     trial.omnibus = d.omnibus, trial.omnibus_alarm = d.omnibus_alarm;
     trial.where = d.where;
+    trial.p_scatter = result.scatter.p;
     trial.gap = result.gap, trial.cross = result.cross;
     trial.predicted_gain = d.predicted_gain, trial.confirmed_gain = result.confirmed_gain;
     trial.new_runs = result.runs;

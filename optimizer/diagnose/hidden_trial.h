@@ -2,13 +2,15 @@
 //
 // Job: the diagnosis put to the test on the engine: every case of a hidden set made, diagnosed and
 //   judged.
-// Method: one StudyModel of the laboratory, catalogue and outsiders side by side, is made once about
+// Method: one StudyModel of the laboratory, catalogue and outsiders side by side, is made once
+// about
 //   the study's start; effects are taken at sizes that rise above the noise of the plan. A case's
 //   sizes follow from its noise units (sizing.h), counted in what the laboratory's own specimens
 //   scatter where nothing is hidden; an effect whose largest size gives less is hidden at that size
-//   and the units it has are told. Data are made by hide_effect() and read back from their folder; for the diagnosis the outsiders' admissible size
-//   is zero, and that of an effect left out of the catalogue. What a case costs anew is its data,
-//   effects beyond the sizes run, and the engine at the fits before and after.
+//   and the units it has are told. Data are made by hide_effect() and read back from their folder;
+//   for the diagnosis the outsiders' admissible size is zero, and that of an effect left out of the
+//   catalogue. What a case costs anew is its data, effects beyond the sizes run, and the engine at
+//   the fits before and after.
 // Judged: `right`: the one name hidden (of a pair: both, and no other); `in_set`: offered with
 //   others; `outside`: not in the catalogue; `nothing`; else `wrong`.
 // Source: sizes and judgement as in the closed-form benchmark (benchmark.h).
@@ -48,6 +50,9 @@ struct TrialCase {
   Gap gap;
   CrossGap cross;
   double predicted_gain = 0, confirmed_gain = 0;
+  double p_scatter = 1;  // scatter_block.h
+  // (estimate - truth) / sd, one a parameter.
+  std::vector<double> off_before, off_after;
   int parameters = 0, inside_before = 0, inside_after = 0;  // of the 95 % intervals
   // Names that others give on the same rows: largest residual, BIC, LASSO.
   std::vector<std::vector<std::string>> others;

@@ -25,6 +25,10 @@ struct ModelPoint {
   Eigen::VectorXd amplitude;  // one an effect, in switch-on sizes
 };
 
+// How many runs a model is made right at a point with: to see whether it is worth more, or to
+// judge.
+enum class Anchoring { rough, whole };
+
 class Prober {
  public:
   virtual ~Prober() = default;
@@ -37,7 +41,7 @@ class Prober {
   virtual Eigen::MatrixXd uncertainty(const ModelPoint &) { return {}; }
   // The same model made right at this point, whatever that costs; it lives no longer than this one.
   // Null: this one is as right as can be had there.
-  virtual std::unique_ptr<Prober> anchored(const ModelPoint &) { return nullptr; }
+  virtual std::unique_ptr<Prober> anchored(const ModelPoint &, Anchoring) { return nullptr; }
 };
 
 }  // namespace bondlab::diagnose

@@ -41,8 +41,8 @@ class RowSelection : public Prober {
     if (all.size() == 0) return all;
     return columns_of(columns_of(all, rows_).transpose(), rows_);
   }
-  std::unique_ptr<Prober> anchored(const ModelPoint &point) override {
-    auto all = whole_.anchored(point);
+  std::unique_ptr<Prober> anchored(const ModelPoint &point, Anchoring how) override {
+    auto all = whole_.anchored(point, how);
     return all ? std::make_unique<RowSelection>(std::move(all), rows_) : nullptr;
   }
   Eigen::VectorXd of(const Eigen::VectorXd &all) const {

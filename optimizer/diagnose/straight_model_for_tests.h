@@ -21,7 +21,8 @@ constexpr double by_packing = 0.01;  // change of the logarithm of the strength,
 constexpr double gap_scale = 1e-4;   // m
 
 // Straight curves to a peak of sigma_c (1 + gap / gap_scale) exp(by_packing * packing), at a slope
-// of E_b; `chaos` adds noise of this sd to the logarithm of the peak, another one for every request; only what the request itself says is known to it, as to the engine.
+// of E_b; `chaos` adds noise of this sd to the logarithm of the peak, another one for every
+// request; only what the request itself says is known to it, as to the engine.
 class StraightModel : public ForwardModel {
  public:
   double default_gap = 0;
@@ -74,10 +75,10 @@ class StraightModelTest : public ::testing::Test {
     gap = plan_run(study, {"ucs", {}, 0}).numeric.at("gap");
     model.default_gap = gap;
     for (const std::string test : {"ucs", "brazilian"})
-      series.push_back({test,
-                        test,
-                        {{CurvePart::slope, "gauge compliance 0.3 to 0.6"},
-                         {CurvePart::peak, "log peak"}}});
+      series.push_back(
+          {test,
+           test,
+           {{CurvePart::slope, "gauge compliance 0.3 to 0.6"}, {CurvePart::peak, "log peak"}}});
   }
   Eigen::Index index(const std::string &name) const {
     for (std::size_t k = 0; k < effects.size(); ++k)
@@ -100,8 +101,7 @@ class StraightModelTest : public ::testing::Test {
   enum ParameterIndex { E_c, kn_ks, sigma_c };
   std::filesystem::path inputs = std::filesystem::path(BONDLAB_SOURCE_DIR) / "inputs";
   Study given = read_study(inputs / "studies" / "granite.toml");
-  std::vector<EffectDefinition> effects =
-      effects_of_study(given, read_effects(inputs / "effects"));
+  std::vector<EffectDefinition> effects = effects_of_study(given, read_effects(inputs / "effects"));
   Study study = with_word_tests(given, effects);
   StraightModel model;
   std::vector<ProbedSeries> series;
@@ -113,7 +113,11 @@ class EmulatedModelTest : public StraightModelTest {
  protected:
   std::vector<EffectEntry> catalogue = catalogue_of(study, effects);
   ForwardProber engine{study, effects, model, series, {0, 1, 2, 3, 4, 5, 6, 7}};
-  EmulatorPlan plan{8, 6, 0.12};
+  EmulatorPlan plan = [] {
+    EmulatorPlan out{8, 6};
+    out.steps = {0.12, 0.12, 0.12};
+    return out;
+  }();
 };
 
 }  // namespace bondlab::diagnose

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/plain_math.h"
 #include "diagnose/further_tests.h"
 
 namespace bondlab::diagnose {
@@ -15,14 +16,18 @@ namespace {
 
 constexpr double beyond_chance = 3;  // sd of a chi squared
 
+bool is_beyond_chance(double chi2, double expected) {
+  return chi2 > expected + beyond_chance * std::sqrt(2 * expected);
+}
+
 // Whether what was named fails on the series held out.
 bool fails_held_out(const StudyDiagnosis &out) {
   for (const auto &series : out.by_series) {
     if (!series.held_out) continue;
     const double rows = series.rows, before = rows * series.before * series.before,
                  after = rows * series.after * series.after;
-    const bool open = before > rows + beyond_chance * std::sqrt(2 * rows);
-    return after - before > margin_needed || (open && after >= before);
+    const double allowed = is_beyond_chance(before, rows) ? 0 : margin_needed;
+    return is_beyond_chance(after, rows) && after - before >= allowed;
   }
   return false;
 }
@@ -32,6 +37,9 @@ bool fails_held_out(const StudyDiagnosis &out) {
 void take_back(StudyDiagnosis &out) {
   auto &d = out.diagnosis;
   if (d.effects.empty() || out.cross.after - out.cross.before <= margin_needed) return;
+  // Within the noise there is nothing to hold against it: the model made right at a fit has noise
+  // of its own there, that of the parameters alone has not.
+  if (!is_beyond_chance(out.cross.after, out.cross.floor)) return;
   std::vector<std::string> names;
   for (const auto &named : d.effects) names.push_back(out.catalogue[named.effect].name);
   out.advice.push_back(
@@ -86,6 +94,21 @@ void advise_tests(StudyModel &model, const std::vector<MeasuredSeries> &measured
         advice.test, specimens, advice.separation,
         advice.enough ? "enough"
                       : fmt::format("not enough (a name takes {:.1f})", 2 * margin_needed)));
+}
+
+// The scatter of strengths is among the places where something shows, but explains nothing.
+void add_scatter(StudyDiagnosis &out) {
+  const auto *worst = out.scatter.worst();
+  if (!worst || out.scatter.p >= out.diagnosis.false_alarm) return;
+  const double z = -plain_normal_quantile(out.scatter.p / 2);
+  out.diagnosis.where.push_back({worst->name, worst->ratio > 1 ? z : -z});
+  out.advice.push_back(fmt::format(
+      "{}: strengths scatter {:.2f} times as much from specimen to specimen as from packing to "
+      "packing of the model (p {:.2g}), which no parameter and no row tells of: {}",
+      worst->name, std::sqrt(worst->ratio), out.scatter.p,
+      worst->ratio > 1 ? "look at strength_scatter, missing_bonds, open_cracks, and at how alike "
+                         "the specimens are"
+                       : "the model's grains are too few or too coarse for these specimens"));
 }
 
 void advise_on(StudyDiagnosis &out) {

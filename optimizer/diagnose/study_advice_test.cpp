@@ -53,7 +53,7 @@ TEST_F(NotAlone, NameThatSeriesHeldOutInTurnAreWorseWithIsNotGiven) {
   for (const auto verdict : {Verdict::one, Verdict::set, Verdict::two}) {
     StudyDiagnosis worse = out;
     worse.diagnosis.verdict = verdict;
-    worse.cross.before = 150, worse.cross.after = 178;
+    worse.cross.before = 150, worse.cross.after = 178, worse.cross.floor = 110;
     take_back(worse);
     EXPECT_EQ(worse.diagnosis.verdict, Verdict::not_in_catalogue);
     EXPECT_TRUE(worse.diagnosis.effects.empty());
@@ -63,7 +63,34 @@ TEST_F(NotAlone, NameThatSeriesHeldOutInTurnAreWorseWithIsNotGiven) {
 }
 
 TEST_F(NotAlone, NameStandsWhereSeriesHeldOutInTurnAreAsTheyWere) {
-  out.cross.before = 139, out.cross.after = 145;
+  out.cross.before = 139, out.cross.after = 145, out.cross.floor = 70;
+  take_back(out);
+  EXPECT_EQ(out.diagnosis.verdict, Verdict::one);
+  EXPECT_TRUE(out.advice.empty());
+}
+
+TEST_F(NotAlone, ScatterBeyondTheAlarmIsAPlaceAndNoName) {
+  out.diagnosis.false_alarm = 0.01;
+  out.scatter = {{{"brazilian, scatter", 1.1, 0.6}, {"ucs, scatter", 6.25, 0.0005}}, 0.02};
+  add_scatter(out);
+  EXPECT_TRUE(out.diagnosis.where.empty());
+  out.scatter.p = 0.001;
+  add_scatter(out);
+  ASSERT_EQ(out.diagnosis.where.size(), 1u);
+  EXPECT_EQ(out.diagnosis.where.front().name, "ucs, scatter");
+  EXPECT_NEAR(out.diagnosis.where.front().score, 3.29, 0.01);
+  ASSERT_EQ(out.advice.size(), 1u);
+  EXPECT_NE(out.advice.front().find("scatter 2.50 times"), std::string::npos);
+  EXPECT_NE(out.advice.front().find("strength_scatter"), std::string::npos);
+  EXPECT_EQ(out.diagnosis.verdict, Verdict::one);
+  out.scatter.blocks[1].ratio = 0.1;
+  add_scatter(out);
+  EXPECT_NEAR(out.diagnosis.where.back().score, -3.29, 0.01);
+  EXPECT_NE(out.advice.back().find("too coarse"), std::string::npos);
+}
+
+TEST_F(NotAlone, NameStandsWhereSeriesHeldOutInTurnLieWithinTheirNoise) {
+  out.cross.before = 69, out.cross.after = 81, out.cross.floor = 72;
   take_back(out);
   EXPECT_EQ(out.diagnosis.verdict, Verdict::one);
   EXPECT_TRUE(out.advice.empty());

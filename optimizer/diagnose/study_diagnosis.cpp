@@ -213,6 +213,7 @@ StudyDiagnosis diagnose_measured(StudyModel &model, std::vector<MeasuredSeries> 
   const Eigen::MatrixXd by_packing = columns_of(emulated.centre_rows(), parts.training_rows);
   const Evidence evidence = evidence_of(study, parts.training, by_packing);
   out.rows = evidence.rows;
+  out.scatter = scatter_test(study, parts.training, by_packing, options.seed);
   for (std::size_t k = 0; k < out.catalogue.size(); ++k)
     out.trace_noise.push_back(emulated.trace_noise(k));
 
@@ -278,7 +279,7 @@ StudyDiagnosis diagnose_measured(StudyModel &model, std::vector<MeasuredSeries> 
   };
   // The model that what was named was judged with.
   std::unique_ptr<Prober> anchored;
-  if (out.diagnosis.anchor) anchored = emulated.anchored(*out.diagnosis.anchor);
+  if (out.diagnosis.anchor) anchored = emulated.anchored(*out.diagnosis.anchor, Anchoring::whole);
   Prober &whole_after = anchored ? *anchored : emulated;
   RowSelection after(whole_after, parts.training_rows);
   finish(out.diagnosis.before, prober);
@@ -345,6 +346,7 @@ StudyDiagnosis diagnose_measured(StudyModel &model, std::vector<MeasuredSeries> 
   give_not_alone(out);
   if (confirm) advise_tests(model, series, out);
   advise_on(out);
+  add_scatter(out);
   out.runs = model.runs() - runs_before;
   return out;
 }

@@ -22,6 +22,7 @@
 #include "diagnose/cross_gap.h"
 #include "diagnose/diagnose.h"
 #include "diagnose/isolability.h"
+#include "diagnose/scatter_block.h"
 #include "diagnose/study_evidence.h"
 #include "diagnose/study_model.h"
 
@@ -69,6 +70,7 @@ struct StudyDiagnosis {
   std::vector<double> z_before, z_after;  // parameters, transformed
   std::vector<SeriesGap> by_series;
   std::vector<RowKey> rows;  // those diagnosed
+  ScatterTest scatter;       // of specimens' strengths against packings'
   std::vector<ShownSeries> shown;
   std::vector<std::string> advice;
   // Names by largest residual, BIC and LASSO (comparators.h) on the same rows.

@@ -39,11 +39,13 @@ void StudyModel::start(const std::vector<ProbedSeries> &series) {
   prober_of(series);
   const auto kept = that_scatter(series, engine_->by_packing(engine_->start(), packings), may_lack);
   prober_of(kept);
+  plan_.steps.clear();
   move_to(engine_->start());
 }
 
 void StudyModel::move_to(const ModelPoint &centre) {
   emulated_ = std::make_unique<EmulatedProber>(*engine_, catalogue_, centre, plan_, false);
+  plan_.steps = emulated_->steps();
 }
 
 void StudyModel::add_effects() {

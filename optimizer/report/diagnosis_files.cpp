@@ -147,6 +147,11 @@ std::string diagnosis_text(const Study &study, const StudyDiagnosis &d) {
   if (g.where.empty()) out += "  nowhere beyond chance\n";
   for (std::size_t i = 0; i < std::min<std::size_t>(g.where.size(), 8); ++i)
     out += fmt::format("  {:<48} {:5.1f}\n", g.where[i].name, g.where[i].score);
+  if (const auto *worst = d.scatter.worst())
+    out += fmt::format(
+        "  scatter of strengths, specimens' over packings' sd: {:.2f} in the most unlikely block "
+        "({}), p of it among all {:.2g}\n",
+        std::sqrt(worst->ratio), worst->name, d.scatter.p);
   const auto tried = tried_lines(d);
   if (!tried.empty()) out += "\nexplanations refitted, chi squared behind the best:\n";
   for (const auto &line : tried) out += "  " + line + "\n";
@@ -180,15 +185,17 @@ std::string diagnosis_text(const Study &study, const StudyDiagnosis &d) {
     const auto &p = study.parameters[i];
     const double sd = d.sd_after[i], range = p.upper - p.lower;
     if (!std::isfinite(sd) || sd > unidentified * range)
-      out += fmt::format("  {}: these data can't identify it (its sd is {} of its range)\n", p.name,
-                         std::isfinite(sd) ? fmt::format("{:.0f} %", 100 * sd / range) : "more than all");
+      out += fmt::format(
+          "  {}: these data can't identify it (its sd is {} of its range)\n", p.name,
+          std::isfinite(sd) ? fmt::format("{:.0f} %", 100 * sd / range) : "more than all");
   }
   out += "\ncan't be told apart well (at the fitted point, from no residual; ten noise units)\n";
   if (d.isolability.empty()) out += "  none\n";
   for (const auto &line : isolability_lines(d.isolability)) out += "  " + line + "\n";
   for (const auto &name : d.hidden) out += "  " + name + ": not seen by these tests\n";
   out +=
-      "  scatter between specimens is no row: what only widens it (scatter of strength) isn't seen\n";
+      "  what only widens the scatter between specimens is told apart by no row: see scatter "
+      "above\n";
   out += "\nsmallest size that would have been seen (90 %)\n";
   for (std::size_t k = 0; k < g.smallest_size.size(); ++k)
     out += fmt::format("  {:<26} {}\n", d.catalogue[k].name,

@@ -117,6 +117,8 @@ void write_trial(const std::vector<TrialCase> &cases, const std::filesystem::pat
                        {"floor", t.cross.floor}};
     one["parameters_inside"] = {
         {"before", t.inside_before}, {"after", t.inside_after}, {"of", t.parameters}};
+    one["parameters_off"] = {{"before", t.off_before}, {"after", t.off_after}};
+    one["p_scatter"] = t.p_scatter;
     one["others"] = t.others, one["new_runs"] = t.new_runs;
     all.push_back(one);
   }
