@@ -108,6 +108,7 @@ std::vector<TrialCase> run_trial(const HiddenSet &set, const Study &laboratory,
   say(fmt::format("model: {} packings, {} for differences, {} effects", plan.centre,
                   plan.differences, model.effects().size()));
   model.start(probed(measured_series(with_data(laboratory, folder_of(blank)), true)));
+  say(model.steps_line());
   model.add_effects();
   scale_to_noise(model, model.emulated(), plan_evidence(model, set.replicates), say);
   say(fmt::format("model made of {} runs, {} rows", model.runs(), model.engine().rows()));

@@ -10,7 +10,7 @@ namespace bondlab::diagnose {
 
 namespace {
 
-constexpr int draws = 4000;
+constexpr int draws = 2000;
 constexpr Eigen::Index least_packings = 8;
 
 // A strength in one series.

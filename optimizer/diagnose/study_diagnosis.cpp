@@ -376,6 +376,7 @@ StudyDiagnosis diagnose_study(const Study &study, const std::vector<EffectDefini
     lost.push_back("not compared: " + one + " (a diagnosis compares figures of single tests)");
     say(lost.back());
   }
+  say(model.steps_line());
   settle(model, series, holdout, say);
   model.add_effects();
   {

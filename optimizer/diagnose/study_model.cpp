@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/study_model.h"
 
+#include <fmt/core.h>
+
 #include <numeric>
 
 #include "diagnose/study_evidence.h"
@@ -93,6 +95,14 @@ void StudyModel::forbid(const std::function<bool(const std::string &)> &whose) {
     entry.lowest = may ? as_read_[k].lowest : 0;
     entry.largest = may ? as_read_[k].largest : 0;
   }
+}
+
+std::string StudyModel::steps_line() const {
+  std::string out;
+  const auto &steps = emulated_->steps();
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    out += fmt::format("{}{} {:.2f}", i > 0 ? ", " : "", study_.parameters[i].name, steps[i]);
+  return "parameters are stepped by (from their noise; 0.1 is 10 %): " + out;
 }
 
 std::vector<std::string> StudyModel::parameter_names() const {

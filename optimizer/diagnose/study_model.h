@@ -48,6 +48,7 @@ class StudyModel {
   const Study &study() const { return study_; }
   const std::vector<EffectDefinition> &effects() const { return effects_; }
   const std::vector<EffectEntry> &catalogue() const { return catalogue_; }
+  std::string steps_line() const;  // for a person
   std::vector<std::string> parameter_names() const;
   ForwardProber &engine() { return *engine_; }
   EmulatedProber &emulated() { return *emulated_; }

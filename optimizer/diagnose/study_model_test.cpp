@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "diagnose/study_model.h"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include "diagnose/straight_model_for_tests.h"
@@ -52,6 +53,18 @@ class StudyModelStart : public StraightModelTest {
     return started.engine().rows();
   }
 };
+
+TEST_F(StudyModelStart, SaysByWhichStepsParametersAreChanged) {
+  EmulatorPlan plan{10, 6};
+  plan.pilot = 0.12;
+  model.chaos = 0.02;
+  const auto as_it_is = [this](const Study &) { return std::make_unique<StraightModel>(model); };
+  StudyModel started(given, effects, as_it_is, plan);
+  started.start(series);
+  const double step = started.emulated().steps()[sigma_c];
+  EXPECT_GT(step, 0.12);
+  EXPECT_NE(started.steps_line().find(fmt::format("sigma_c {:.2f}", step)), std::string::npos);
+}
 
 TEST_F(StudyModelStart, KeepsARowThatATenthOfThePackingsLacks) {
   const int all = rows(0);
