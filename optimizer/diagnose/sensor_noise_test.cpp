@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -60,6 +61,22 @@ TEST(SensorNoise, SmoothCurveHasNone) {
 TEST(SensorNoise, FewPointsShowNone) {
   EXPECT_EQ(white_noise({noisy(specimen(19), 2e5, 0, 1).columns[0]})[0], 0);
   EXPECT_GT(white_noise({noisy(specimen(40), 2e5, 0, 1).columns[0]})[0], 0);
+}
+
+// Sixty points alone are often taken for a drift; six specimens' together are not.
+TEST(SensorNoise, SpecimensAreDecidedOnTogether) {
+  int alone = 0, together = 0;
+  for (std::uint64_t set = 0; set < 20; ++set) {
+    std::vector<std::vector<double>> columns;
+    for (std::uint64_t i = 0; i < 6; ++i) {
+      columns.push_back(noisy(specimen(60), 2e5, 0, 10 * set + i).columns[0]);
+      alone += white_noise({columns.back()})[0] == 0;
+    }
+    const auto found = white_noise(columns);
+    together += static_cast<int>(std::count(found.begin(), found.end(), 0.0));
+  }
+  EXPECT_GT(alone, 5);
+  EXPECT_EQ(together, 0) << "of 120";
 }
 
 class SensorRows : public ::testing::Test {
