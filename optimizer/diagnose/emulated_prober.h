@@ -3,19 +3,19 @@
 // Job: a Prober that knows how well it knows: polynomials over forward runs about one point.
 // Method: at the centre the rows are the mean over many packings. About it every fitted parameter
 //   is stepped up and down on some of these packings, as far as their noise asks for
-//   (parameter_step.h), and every effect switched on at two sizes, on
-//   fewer (common random numbers: a packing is compared with itself). Every fit needs the
-//   parameters' changes and few effects; the packings that an effect lacks stand at its mean, with
-//   its scatter widened so that the covariance of the mean stays what it is. The change along one
-//   coordinate is x L + x^2 Q a row and packing, Q only where its mean over the packings is
-//   beyond 2.5 of its standard errors; changes along different coordinates add, which rows that are
-//   logarithms and shares nearly do. A straight row's mean m with standard error s is taken as m
-//   max(0, 1 - w s^2 / m^2), w the widening below: a row that does not change keeps no noise, one
-//   that does is kept. uncertainty() is the covariance of the whole change over the packings, over
-//   their number: it is zero at the centre and grows with what is asked. x of a parameter is the
-//   logarithm of its physical value over the centre's (the share of its range where it may be zero
-//   or negative), because stiffness and strength scale as powers and z bends near its bounds. An
-//   effect that can have either sign has a slope of its own below zero.
+//   (parameter_step.h), and every effect switched on at two sizes, on fewer (common random numbers:
+//   a packing is compared with itself). Every fit needs the parameters' changes and few
+//   effects; the packings that an effect lacks stand at its mean, with its scatter widened so that
+//   the covariance of the mean stays what it is. The change along one coordinate is x L + x^2 Q a
+//   row and packing, Q only where its mean over the packings is beyond 2.5 of its standard errors;
+//   changes along different coordinates add, which rows that are logarithms and shares nearly do. A
+//   straight row's mean m with standard error s is taken as m max(0, 1 - w s^2 / m^2), w the
+//   widening below: a row that does not change keeps no noise, one that does is kept. uncertainty()
+//   is the covariance of the whole change over the packings, over their number: it is zero at the
+//   centre and grows with what is asked. x of a parameter is the logarithm of its physical value
+//   over the centre's (the share of its range where it may be zero or negative), because stiffness
+//   and strength scale as powers and z bends near its bounds. An effect that can have either sign
+//   has a slope of its own below zero.
 // Why: a brittle specimen breaks along another path after any change, so that one run's difference
 //   is noise; here noise is averaged, and what is left of it is known to the scores. A probe costs
 //   no run, so that one design serves many data sets and thousands of resamples.
@@ -49,7 +49,8 @@ struct EmulatorPlan {
 
 class EmulatedProber : public Prober {
  public:
-  // Makes all its runs, as one batch. `engine` must outlive the prober.
+  // Makes all its runs: centre, pilot, parameters, effects, a batch each. `engine` must outlive the
+  // prober.
   EmulatedProber(ForwardProber &engine, const std::vector<EffectEntry> &catalogue,
                  const ModelPoint &centre, const EmulatorPlan &plan, bool with_effects = true);
 

@@ -32,6 +32,11 @@ TEST_F(NotAlone, NameStandsWhereItDoesNotTouchTheSeriesHeldOut) {
   EXPECT_EQ(judged(0.95, 1.02, 6), Verdict::one);
 }
 
+// Six rows: chi squared from 0.5 to 9.4, where chance leaves up to 16.
+TEST_F(NotAlone, NameStandsWhereTheSeriesHeldOutLiesWithinItsNoise) {
+  EXPECT_EQ(judged(0.3, 1.25, 6), Verdict::one);
+}
+
 TEST_F(NotAlone, NameThatMakesItWorseIsOneOfASet) {
   EXPECT_EQ(judged(1.0, 3.0, 1), Verdict::set);
   ASSERT_EQ(out.diagnosis.effects.size(), 2u);

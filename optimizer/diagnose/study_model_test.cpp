@@ -64,6 +64,10 @@ TEST_F(StudyModelStart, SaysByWhichStepsParametersAreChanged) {
   const double step = started.emulated().steps()[sigma_c];
   EXPECT_GT(step, 0.12);
   EXPECT_NE(started.steps_line().find(fmt::format("sigma_c {:.2f}", step)), std::string::npos);
+  ModelPoint other = started.emulated().centre();
+  other.z(sigma_c) += 0.1;
+  started.move_to(other);
+  EXPECT_EQ(started.emulated().steps()[sigma_c], step) << "no pilot at every move";
 }
 
 TEST_F(StudyModelStart, KeepsARowThatATenthOfThePackingsLacks) {
